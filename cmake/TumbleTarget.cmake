@@ -1,0 +1,11 @@
+# What every target of the project is compiled with.
+#
+# -ffp-contract=off: the compiler must not fuse a * b + c, or states would differ between instruction sets.
+# EIGEN_DONT_VECTORIZE: Eigen's sums must not depend on the width of a vector register.
+function(tumble_target name)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${name} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
+                                         $<$<BOOL:${TUMBLE_WERROR}>:-Werror>)
+  target_compile_definitions(${name} PRIVATE EIGEN_DONT_VECTORIZE)
+endfunction()

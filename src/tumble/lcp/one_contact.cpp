@@ -1,0 +1,106 @@
+#include "tumble/lcp/one_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// `residual` written out for the four rows of one contact: rows 2 and 3 share their d.
+double one_contact_residual(const OneContact& c, const Vector4& z) {
+  const auto [f_n, f_t1, f_t2, slip_speed] = z;
+  const double f_t = f_t2 - f_t1;
+  const double u_n = c.A_nn * f_n + c.A_nt * f_t + c.b_n;
+  const double u_t = c.A_nt * f_n + c.A_tt * f_t + c.b_t;
+  const double cone = c.friction * f_n - f_t1 - f_t2;
+
+  const double velocity_size = std::max(std::abs(c.b_n), std::abs(c.b_t));
+  if (velocity_size == 0.0) return 0.0;
+  const double A_nt = std::abs(c.A_nt);
+  const double f_t_sum = f_t1 + f_t2;
+  const double inverse_d_n = 1.0 / (velocity_size + std::abs(c.b_n) + c.A_nn * f_n + A_nt * f_t_sum);
+  const double inverse_d_t = 1.0 / (velocity_size + std::abs(c.b_t) + A_nt * f_n + c.A_tt * f_t_sum + slip_speed);
+  const double inverse_d_cone = c.A_nn / (velocity_size + c.A_nn * (c.friction * f_n + f_t_sum));
+
+  const double s_n = f_n * std::max({c.A_nn * inverse_d_n, A_nt * inverse_d_t, c.friction * inverse_d_cone});
+  const double s_t = std::max({A_nt * inverse_d_n, c.A_tt * inverse_d_t, inverse_d_cone});
+  const double s_slip = slip_speed * inverse_d_t;
+
+  // One row: the worst of -w, -z and min(w, z).
+  const auto violation = [](double w, double relative_z) {
+    return std::max({-w, -relative_z, std::min(w, relative_z)});
+  };
+  return std::max({violation(u_n * inverse_d_n, s_n), violation((slip_speed - u_t) * inverse_d_t, f_t1 * s_t),
+                   violation((slip_speed + u_t) * inverse_d_t, f_t2 * s_t), violation(cone * inverse_d_cone, s_slip)});
+}
+
+// f_n, f_t, slip speed and mode; see docs/theory/one_contact.md.
+OneContactSolution choose_mode(const OneContact& c) {
+  OneContactSolution solution;
+  if (c.b_n >= 0.0) {
+    solution.slip_speed = std::abs(c.b_t);
+    return solution;
+  }
+  // Stick: A f = -b, as F = det(A) f.
+  const double det = c.A_nn * c.A_tt - c.A_nt * c.A_nt;
+  const double F_n = c.A_nt * c.b_t - c.A_tt * c.b_n;
+  const double F_t = c.A_nt * c.b_n - c.A_nn * c.b_t;
+  const double cone_F_n = c.friction * F_n;
+  if (std::abs(F_t) <= cone_F_n) {
+    solution.f_n = F_n / det;
+    solution.f_t = F_t / det;
+    solution.mode = ContactMode::stick;
+    return solution;
+  }
+  // Slip in direction sigma: f_t = -sigma mu f_n, f_n = -b_n / k, slip speed (-sigma F_t - mu F_n) / k. The direction
+  // against the sticking force, unless friction would pull the contact in faster than it can be pushed out (k <= 0).
+  double sigma = F_t > 0.0 ? -1.0 : 1.0;
+  double k = c.A_nn - sigma * c.friction * c.A_nt;
+  if (k <= 0.0) {
+    sigma = -sigma;
+    k = c.A_nn - sigma * c.friction * c.A_nt;
+  }
+  solution.f_n = -c.b_n / k;
+  solution.f_t = -sigma * c.friction * solution.f_n;
+  solution.slip_speed = (-sigma * F_t - cone_F_n) / k;
+  solution.mode = sigma < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
+  return solution;
+}
+
+}  // namespace
+
+std::string_view to_string(ContactMode mode) {
+  switch (mode) {
+    case ContactMode::open: return "open";
+    case ContactMode::stick: return "stick";
+    case ContactMode::slip_left: return "slip left";
+    case ContactMode::slip_right: return "slip right";
+  }
+  return "unknown";
+}
+
+LcpProblem as_lcp(const OneContact& c) {
+  const double velocity_size = std::max(std::abs(c.b_n), std::abs(c.b_t));
+  return {{c.A_nn, -c.A_nt, c.A_nt, 0.0,    //
+           -c.A_nt, c.A_tt, -c.A_tt, 1.0,   //
+           c.A_nt, -c.A_tt, c.A_tt, 1.0,    //
+           c.friction, -1.0, -1.0, 0.0},
+          {c.b_n, -c.b_t, c.b_t, 0.0},
+          {velocity_size, velocity_size, velocity_size, velocity_size / c.A_nn}};
+}
+
+Vector4 as_z(const OneContactSolution& solution) {
+  return {solution.f_n, std::max(-solution.f_t, 0.0), std::max(solution.f_t, 0.0), solution.slip_speed};
+}
+
+OneContactSolution solve_one_contact(const OneContact& contact) {
+  constexpr double accepted_residual = 1e-10;  // round-off of a few operations, times the condition of A up to 1e5
+  OneContactSolution solution = choose_mode(contact);
+  solution.residual = one_contact_residual(contact, as_z(solution));
+  // A NaN anywhere fails both comparisons.
+  const bool is_solved = solution.residual <= accepted_residual && std::abs(solution.f_n) <= 1e300;
+  solution.status = is_solved ? LcpStatus::solved : LcpStatus::numerical;
+  return solution;
+}
+
+}  // namespace tumble

@@ -1,0 +1,40 @@
+#include "tumble/lcp/problem.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+void validate(const LcpProblem& problem) {
+  const std::size_t n = problem.size();
+  if (n == 0) throw std::invalid_argument("q: must have at least 1 entry, got 0");
+  if (problem.M.size() != n * n) {
+    throw std::invalid_argument(
+        fmt::format("M: must be {0} x {0} for q of length {0}, got {1} entries", n, problem.M.size()));
+  }
+  for (std::size_t i = 0; i < n * n; ++i) {
+    if (!std::isfinite(problem.M[i])) {
+      throw std::invalid_argument(fmt::format("M[{}][{}]: must be finite, got {}", i / n, i % n, problem.M[i]));
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!std::isfinite(problem.q[i])) {
+      throw std::invalid_argument(fmt::format("q[{}]: must be finite, got {}", i, problem.q[i]));
+    }
+  }
+  if (problem.row_sizes.empty()) return;
+  if (problem.row_sizes.size() != n) {
+    throw std::invalid_argument(
+        fmt::format("row_sizes: must be empty or have {} entries, got {}", n, problem.row_sizes.size()));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(std::isfinite(problem.row_sizes[i]) && problem.row_sizes[i] >= 0.0)) {
+      throw std::invalid_argument(
+          fmt::format("row_sizes[{}]: must be finite and >= 0, got {}", i, problem.row_sizes[i]));
+    }
+  }
+}
+
+}  // namespace tumble

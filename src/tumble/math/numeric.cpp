@@ -1,0 +1,39 @@
+#include "tumble/math/numeric.hpp"
+
+#include <charconv>
+#include <system_error>
+#include <version>
+
+#include <fmt/format.h>
+
+#ifndef __cpp_lib_to_chars
+#include <cstdlib>
+#endif
+
+namespace tumble {
+
+std::optional<double> parse_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') {
+    text.remove_prefix(1);
+    if (!text.empty() && text.front() == '-') return std::nullopt;
+  }
+  if (text.empty()) return std::nullopt;
+#ifdef __cpp_lib_to_chars
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+#else
+  // libc++ 14 (emscripten) has no from_chars for double; its strtod knows only the C locale.
+  const std::string copy(text);
+  if (copy.front() == ' ' || copy.find_first_of("xX") != std::string::npos) return std::nullopt;
+  char* end = nullptr;
+  const double value = std::strtod(copy.c_str(), &end);
+  if (end != copy.c_str() + copy.size()) return std::nullopt;
+  return value;
+#endif
+}
+
+std::string to_text(double value) { return fmt::format("{}", value); }
+
+}  // namespace tumble
