@@ -1,0 +1,33 @@
+// numpy <-> core: arguments are copied in, results are fresh float64 arrays. No memory of the caller is kept.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "tumble/math/vector.hpp"
+
+namespace tumble::python {
+
+namespace py = pybind11;
+
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// `object` as a contiguous float64 array: lists, any integer or float dtype, any strides, read-only or not.
+// Raises ValueError naming `name` for anything else (complex, text, ragged lists, None) and for a shape other than
+// `shape`, where -1 stands for any length.
+Array as_array(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape);
+
+Vector3 as_vector3(const py::handle& object, const char* name);
+std::vector<double> as_vector(const Array& array);
+
+py::array_t<double> to_numpy(std::span<const double> values);
+py::array_t<double> to_numpy(std::span<const double> values, py::ssize_t rows, py::ssize_t columns);
+
+void bind_lcp(py::module_& module);
+void bind_drop(py::module_& module);
+
+}  // namespace tumble::python

@@ -1,0 +1,79 @@
+// The extension module tumble._core. The public names, their docstrings and types are in the Python files beside it.
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "convert.hpp"
+
+namespace tumble::python {
+namespace {
+
+std::string shape_text(const py::ssize_t* shape, std::size_t num_dimensions) {
+  std::string text = "(";
+  for (std::size_t i = 0; i < num_dimensions; ++i) {
+    text += shape[i] < 0 ? "n" : std::to_string(shape[i]);
+    if (i + 1 < num_dimensions || num_dimensions == 1) text += ",";
+    if (i + 1 < num_dimensions) text += " ";
+  }
+  return text + ")";
+}
+
+}  // namespace
+
+Array as_array(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape) {
+  Array array;
+  if (py::isinstance<Array>(object)) {  // float64 and contiguous: nothing to convert
+    array = py::reinterpret_borrow<Array>(object);
+  } else {
+    const auto any = py::array::ensure(object);
+    if (!any) {
+      PyErr_Clear();
+      throw std::invalid_argument(fmt::format("{}: must be an array of numbers", name));
+    }
+    const char kind = any.dtype().kind();
+    const bool is_empty_list = any.size() == 0;
+    if (kind != 'f' && kind != 'i' && kind != 'u' && !is_empty_list) {
+      throw std::invalid_argument(fmt::format("{}: must be an array of real numbers, got dtype {}", name,
+                                              std::string(py::str(any.dtype()))));
+    }
+    array = Array::ensure(any);
+    if (!array) {
+      PyErr_Clear();
+      throw std::invalid_argument(fmt::format("{}: must be an array of numbers", name));
+    }
+  }
+  const bool has_shape = static_cast<std::size_t>(array.ndim()) == shape.size() &&
+                         std::equal(shape.begin(), shape.end(), array.shape(),
+                                    [](py::ssize_t wanted, py::ssize_t got) { return wanted < 0 || wanted == got; });
+  if (!has_shape) {
+    throw std::invalid_argument(fmt::format("{}: must have shape {}, got {}", name, shape_text(shape.data(), shape.size()),
+                                            shape_text(array.shape(), static_cast<std::size_t>(array.ndim()))));
+  }
+  return array;
+}
+
+Vector3 as_vector3(const py::handle& object, const char* name) {
+  const Array array = as_array(object, name, {3});
+  const double* data = array.data();
+  return {data[0], data[1], data[2]};
+}
+
+std::vector<double> as_vector(const Array& array) { return {array.data(), array.data() + array.size()}; }
+
+py::array_t<double> to_numpy(std::span<const double> values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::array_t<double> to_numpy(std::span<const double> values, py::ssize_t rows, py::ssize_t columns) {
+  return py::array_t<double>({rows, columns}, values.data());
+}
+
+}  // namespace tumble::python
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "Compiled part of tumble; see tumble.drop and tumble.lcp.";
+  module.attr("__version__") = TUMBLE_VERSION;
+  tumble::python::bind_lcp(module);
+  tumble::python::bind_drop(module);
+}
