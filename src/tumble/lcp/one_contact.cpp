@@ -97,8 +97,8 @@ OneContactSolution solve_one_contact(const OneContact& contact) {
   constexpr double accepted_residual = 1e-10;  // round-off of a few operations, times the condition of A up to 1e5
   OneContactSolution solution = choose_mode(contact);
   solution.residual = one_contact_residual(contact, as_z(solution));
-  // A NaN anywhere fails both comparisons.
-  const bool is_solved = solution.residual <= accepted_residual && std::abs(solution.f_n) <= 1e300;
+  // A NaN anywhere fails a comparison.
+  const bool is_solved = solution.residual <= accepted_residual && contact.A_nn > 0.0 && solution.f_n <= 1e300;
   solution.status = is_solved ? LcpStatus::solved : LcpStatus::numerical;
   return solution;
 }

@@ -1,0 +1,73 @@
+# The front door. Every target installs what it misses (scripts/deps.sh names it first) and builds what it needs.
+# Everything made here is in build/, build-*/ and out/.
+
+PYTHON := $(shell command -pv python3)
+BUILD := build
+CMAKE := cmake -S . -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+QUIET_BUILD := cmake --build
+
+.PHONY: all run test bench fuzz sanitize install clean help deps-build deps-python configure
+
+all: configure ## build the library, the program and the Python package
+	@$(QUIET_BUILD) $(BUILD)
+	@echo "built $(BUILD)/bin/tumble and the Python package in $(BUILD)/python"
+
+help: ## this list
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
+
+deps-build:
+	@scripts/deps.sh build
+
+deps-python: deps-build
+	@scripts/deps.sh python
+
+# Python and tests are optional in CMake; once switched on here they stay on in build/.
+configure: deps-python
+	@test -f $(BUILD)/build.ninja && grep -q '^TUMBLE_BUILD_PYTHON:BOOL=ON' $(BUILD)/CMakeCache.txt || \
+	  $(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON >/dev/null
+
+run: deps-build ## simulate the course's start; writes out/drop.csv, out/drop.gif, out/drop.png
+	@test -f $(BUILD)/build.ninja || $(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=OFF >/dev/null
+	@$(QUIET_BUILD) $(BUILD) --target tumble_cli
+	@mkdir -p out
+	@$(BUILD)/bin/tumble drop --force -o out/drop.csv -o out/drop.gif -o out/drop.png
+	@echo
+	@echo "Look at out/drop.gif and out/drop.png. Then try:"
+	@echo "  $(BUILD)/bin/tumble drop --q0 0,1,45deg --v0 2,0,-3 --friction 0.6 -o out/mine.gif"
+	@echo "  $(BUILD)/bin/tumble drop --help"
+	@echo "  make && PYTHONPATH=$(BUILD)/python $(PYTHON) -c 'from tumble.drop import simulate; print(simulate([0, 1.5, 0.5], [0, -0.2, 0]))'"
+
+test: ## all tests; the last line is "N passed, N failed"
+	@scripts/deps.sh build python test
+	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_TESTS=ON -DTUMBLE_WERROR=ON >/dev/null
+	@$(QUIET_BUILD) $(BUILD)
+	@$(PYTHON) scripts/run_tests.py --build $(BUILD)
+
+bench: ## benchmarks; writes out/bench.md
+	@scripts/deps.sh build python bench
+	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_BENCHMARKS=ON >/dev/null
+	@$(QUIET_BUILD) $(BUILD)
+	@mkdir -p out
+	@$(PYTHON) benchmarks/run.py --build $(BUILD) --output out/bench.md
+
+TIME ?= 60
+fuzz: ## libFuzzer on every loader, TIME seconds each (default 60)
+	@scripts/deps.sh build fuzz
+	@$(CMAKE) -B build-fuzz -DCMAKE_CXX_COMPILER=clang++-14 -DTUMBLE_BUILD_FUZZERS=ON -DTUMBLE_BUILD_CLI=OFF \
+	  -DTUMBLE_BUILD_PYTHON=OFF >/dev/null
+	@$(QUIET_BUILD) build-fuzz
+	@scripts/fuzz.sh build-fuzz $(TIME)
+
+sanitize: ## the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@scripts/deps.sh build test
+	@$(CMAKE) -B build-sanitize -DTUMBLE_SANITIZE=ON -DTUMBLE_BUILD_TESTS=ON -DTUMBLE_BUILD_PYTHON=OFF >/dev/null
+	@$(QUIET_BUILD) build-sanitize
+	@ctest --test-dir build-sanitize --output-on-failure -j 2
+
+PREFIX ?= /usr/local
+install: configure ## install to PREFIX (default /usr/local)
+	@$(QUIET_BUILD) $(BUILD)
+	@cmake --install $(BUILD) --prefix $(PREFIX)
+
+clean: ## remove everything that was made
+	rm -rf build build-* out

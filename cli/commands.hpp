@@ -1,0 +1,47 @@
+// The subcommands: each takes its parsed options, calls the library, writes and returns the exit code.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tumble/drop/drop.hpp"
+
+namespace tumble::cli {
+
+// Exit codes. Bad input is whatever the library throws as std::invalid_argument.
+inline constexpr int k_done = 0;
+inline constexpr int k_bad_input = 2;  // also: a file that cannot be read or written
+inline constexpr int k_numerical_failure = 3;
+
+struct ReportOptions {
+  bool json = false;   // one JSON object on standard output instead of text
+  bool quiet = false;  // nothing on standard output
+};
+
+struct DropOptions {
+  Vector3 q0 = {0.0, 1.5, 0.52359877559829887};  // the course's start: 30 degrees
+  Vector3 v0 = {0.0, -0.2, 0.0};
+  drop::Parameters parameters;
+  std::vector<std::string> outputs;
+  bool force = false;
+  ReportOptions report;
+};
+int run_drop(const DropOptions& options);
+
+struct RenderOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  bool force = false;
+  ReportOptions report;
+};
+int run_render(const RenderOptions& options);
+
+struct LcpOptions {
+  std::string input;  // "-" is standard input
+  std::string method = "lemke";
+  bool all = false;
+  ReportOptions report;
+};
+int run_lcp(const LcpOptions& options);
+
+}  // namespace tumble::cli

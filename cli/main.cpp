@@ -1,0 +1,151 @@
+// The program `tumble`. CLI11 is included here and nowhere else: it takes longer to compile than the rest together.
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "text.hpp"
+
+namespace tumble::cli {
+namespace {
+
+// Parameters have the document's names in the library and words on the command line; errors show what was typed.
+const std::map<std::string, std::string> k_option_of_field = {
+    {"l", "--side"},         {"m", "--mass"},  {"mu", "--friction"}, {"eps", "--restitution"}, {"dt", "--step"},
+    {"delta", "--delta"},    {"g", "--gravity"}, {"columns", "--steps + 1"}, {"m, l", "--mass, --side"}};
+
+std::string with_option_name(const std::string& message) {
+  const std::size_t colon = message.find(':');
+  const auto found = k_option_of_field.find(message.substr(0, colon));
+  return found == k_option_of_field.end() ? message : found->second + message.substr(colon);
+}
+
+void add_report_options(CLI::App& app, ReportOptions& report) {
+  app.add_flag("--json", report.json, "Print one JSON object instead of text");
+  app.add_flag("--quiet", report.quiet, "Print nothing but errors");
+}
+
+void add_output_options(CLI::App& app, std::vector<std::string>& outputs, bool& force) {
+  app.add_option("-o,--output", outputs,
+                 "File to write; its ending picks the kind: .csv .npz .h5 (data), .png .svg (many poses in one picture), "
+                 ".gif .mp4 (animation in real time). May be given several times")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("--force", force, "Replace files that exist");
+}
+
+// An option whose word goes through `parse`, so that every bad number gets the same kind of message.
+template <class T>
+void add_parsed(CLI::App& app, const std::string& name, T& target, T (*parse)(const std::string&, const std::string&),
+                const std::string& description, const std::string& default_text, const std::string& type) {
+  app.add_option_function<std::string>(
+         name, [&target, parse, name](const std::string& word) { target = parse(name, word); }, description)
+      ->default_str(default_text)
+      ->type_name(type);
+}
+
+void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& command) {
+  CLI::App& app = *program.add_subcommand("drop", "Drop a square on the ground and print its impacts");
+  drop::Parameters& p = options.parameters;
+  const auto add = [&](const std::string& name, double& target, const std::string& description) {
+    add_parsed(app, name, target, &number, description, fmt::format("{}", target), "NUMBER");
+  };
+  add_parsed(app, "--q0", options.q0, &planar_triple, "Start: centre of mass [m] and angle [rad, or with ending deg]",
+             "0,1.5,30deg", "X,Y,THETA");
+  add_parsed(app, "--v0", options.v0, &planar_triple, "Start: velocity [m/s] and angular velocity [rad/s, or with ending deg]",
+             "0,-0.2,0", "VX,VY,OMEGA");
+  add("--side", p.l, "Side of the square [m], > 0");
+  add("--mass", p.m, "Mass [kg], > 0");
+  add("--friction", p.mu, "Coefficient of friction, >= 0");
+  add("--restitution", p.eps, "Coefficient of restitution, 0 to 1");
+  add("--step", p.dt, "Time step [s], > 0");
+  add("--gravity", p.g, "Gravitational acceleration, downwards [m/s^2]");
+  add("--delta", p.delta, "Contact threshold and lift [m], >= 0");
+  app.add_option_function<std::string>(
+         "--steps",
+         [&p](const std::string& word) {
+           const int steps = whole_number("--steps", word);
+           if (steps < 0 || steps >= drop::k_max_columns) {
+             throw std::invalid_argument(
+                 fmt::format("--steps: must be in [0, {}], got {}", drop::k_max_columns - 1, steps));
+           }
+           p.columns = steps + 1;
+         },
+         "Number of steps; the trajectory has one column more")
+      ->default_str("149")
+      ->type_name("COUNT");
+  add_output_options(app, options.outputs, options.force);
+  add_report_options(app, options.report);
+  app.callback([&] { command = [&] { return run_drop(options); }; });
+}
+
+void add_render(CLI::App& program, RenderOptions& options, std::function<int()>& command) {
+  CLI::App& app = *program.add_subcommand("render", "Draw a recorded trajectory, or convert it");
+  app.add_option("file", options.input, "Trajectory written by `tumble drop -o`: .csv .npz .h5")
+      ->type_name("FILE")
+      ->required();
+  add_output_options(app, options.outputs, options.force);
+  app.get_option("--output")->required();
+  add_report_options(app, options.report);
+  app.callback([&] { command = [&] { return run_render(options); }; });
+}
+
+void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& command) {
+  CLI::App& app = *program.add_subcommand("lcp", "Solve a linear complementarity problem: w = M z + q >= 0, z >= 0, w.z = 0");
+  app.add_option("file", options.input,
+                 "Text: a line 'M', the rows of M, a line 'q', the entries of q; numbers as 1e-3 or 1/3, comments "
+                 "behind '#'. '-' reads standard input")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--method", options.method, "lemke (any n) or enumerate (n <= 12, proves that there is no solution)")
+      ->check(CLI::IsMember({"lemke", "enumerate"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+  app.add_flag("--all", options.all, "Every vertex solution, n <= 12");
+  add_report_options(app, options.report);
+  app.callback([&] { command = [&] { return run_lcp(options); }; });
+}
+
+int fail(const std::string& message) {
+  fmt::print(stderr, "tumble: {}\n", message);
+  return k_bad_input;
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("Tumble: rigid bodies in the plane under frictional contact.", "tumble");
+  program.set_version_flag("--version", std::string("tumble ") + TUMBLE_VERSION);
+  program.require_subcommand(1);
+  program.footer("Exit codes: 0 done, 2 bad input, 3 numerical failure or no solution.\n`tumble COMMAND --help` tells more.");
+
+  DropOptions drop_options;
+  RenderOptions render_options;
+  LcpOptions lcp_options;
+  std::function<int()> command;
+  add_drop(program, drop_options, command);
+  add_render(program, render_options, command);
+  add_lcp(program, lcp_options, command);
+
+  try {
+    program.parse(argc, argv);
+    const int exit_code = command();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("standard output could not be written");
+    return exit_code;
+  } catch (const CLI::Success& request) {  // --help, --version
+    return program.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return fail(error.what());
+  } catch (const std::exception& error) {
+    return fail(with_option_name(error.what()));
+  }
+}
+
+}  // namespace
+}  // namespace tumble::cli
+
+int main(int argc, char** argv) { return tumble::cli::run(argc, argv); }

@@ -1,0 +1,147 @@
+#include "report.hpp"
+
+#include <array>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace tumble::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 4> k_corner_names = {"(-,-)", "(+,-)", "(+,+)", "(-,+)"};
+
+// A step during which a contact force acts.
+struct Impact {
+  int column;
+  double normal_impulse;      // [N s]
+  double tangential_impulse;  // along +x [N s]
+  double energy_lost;         // mechanical energy before the step minus after it [J]; the lift of delta counts as gain
+};
+
+double mechanical_energy(const drop::Record& record, int column) {
+  return kinetic_energy(record.trajectory.v_at(column), record.parameters) +
+         potential_energy(record.trajectory.q_at(column), record.parameters);
+}
+
+std::vector<Impact> find_impacts(const drop::Record& record) {
+  std::vector<Impact> impacts;
+  const double dt = record.parameters.dt;
+  for (int k = 0; k + 1 < record.trajectory.columns; ++k) {
+    const Vector4& z = record.steps[static_cast<std::size_t>(k)].z;
+    if (z[0] <= 0.0) continue;
+    impacts.push_back({k, z[0] * dt, (z[2] - z[1]) * dt, mechanical_energy(record, k) - mechanical_energy(record, k + 1)});
+  }
+  return impacts;
+}
+
+std::string state_text(const Vector3& q, const Vector3& v) {
+  return fmt::format("x {:.4f} m, y {:.4f} m, angle {:.2f} deg; vx {:.4f} m/s, vy {:.4f} m/s, omega {:.4f} rad/s", q[0],
+                     q[1], q[2] * (180.0 / std::numbers::pi), v[0], v[1], v[2]);
+}
+
+std::string files_text(const std::vector<std::string>& files) {
+  return files.empty() ? "" : fmt::format("wrote {}\n", fmt::join(files, ", "));
+}
+
+std::string impact_table(const drop::Record& record) {
+  constexpr std::size_t max_rows = 40;
+  const std::vector<Impact> impacts = find_impacts(record);
+  if (impacts.empty()) return "no impact\n";
+  std::string text = "time [s]  corner  mode        impulse n [N s]  impulse t [N s]  energy lost [J]\n";
+  for (std::size_t i = 0; i < std::min(impacts.size(), max_rows); ++i) {
+    const Impact& impact = impacts[i];
+    const drop::StepRecord& step = record.steps[static_cast<std::size_t>(impact.column)];
+    text += fmt::format("{:8.3f}  {:6}  {:10}  {:15.5f}  {:15.5f}  {:15.5f}\n", impact.column * record.parameters.dt,
+                        k_corner_names[static_cast<std::size_t>(step.corner)], to_string(step.mode),
+                        impact.normal_impulse, impact.tangential_impulse, impact.energy_lost);
+  }
+  if (impacts.size() > max_rows) {
+    text += fmt::format("... and {} more; -o FILE.csv has every step\n", impacts.size() - max_rows);
+  }
+  return text;
+}
+
+Json json_of(const Vector3& values) { return Json::array({values[0], values[1], values[2]}); }
+
+Json json_of(const LcpResult& result) {
+  std::vector<bool> basis(result.basis.begin(), result.basis.end());
+  return {{"status", to_string(result.status)}, {"z", result.z},           {"w", result.w},
+          {"residual", result.residual},        {"pivots", result.pivots}, {"basis", basis}};
+}
+
+}  // namespace
+
+std::string drop_text(const drop::Record& record, const std::vector<std::string>& files) {
+  const drop::Parameters& p = record.parameters;
+  const drop::Trajectory& trajectory = record.trajectory;
+  const int last = trajectory.columns - 1;
+  std::string text = fmt::format(
+      "square of side {} m, mass {} kg, friction {}, restitution {}; {} steps of {} s\nstart: {}\n\n", p.l, p.m, p.mu,
+      p.eps, p.columns - 1, p.dt, state_text(trajectory.q_at(0), trajectory.v_at(0)));
+  text += impact_table(record);
+  if (trajectory.status != LcpStatus::solved) {
+    text += fmt::format("\nstep {} of {} left the range of double arithmetic: status {}, residual {:.3g}\n", last + 1,
+                        p.columns - 1, to_string(trajectory.status), record.steps.back().residual);
+  }
+  text += fmt::format("\nafter {:.4g} s: {}\n", last * p.dt, state_text(trajectory.q_at(last), trajectory.v_at(last)));
+  return text + files_text(files);
+}
+
+std::string drop_json(const drop::Record& record, const std::vector<std::string>& files) {
+  const drop::Parameters& p = record.parameters;
+  const drop::Trajectory& trajectory = record.trajectory;
+  const int last = trajectory.columns - 1;
+  Json impacts = Json::array();
+  for (const Impact& impact : find_impacts(record)) {
+    const drop::StepRecord& step = record.steps[static_cast<std::size_t>(impact.column)];
+    impacts.push_back({{"column", impact.column},
+                       {"time", impact.column * p.dt},
+                       {"corner", step.corner},
+                       {"mode", to_string(step.mode)},
+                       {"normal_impulse", impact.normal_impulse},
+                       {"tangential_impulse", impact.tangential_impulse},
+                       {"energy_lost", impact.energy_lost},
+                       {"residual", step.residual}});
+  }
+  const Json report = {
+      {"parameters",
+       {{"l", p.l}, {"m", p.m}, {"mu", p.mu}, {"eps", p.eps}, {"dt", p.dt}, {"delta", p.delta}, {"g", p.g}, {"columns", p.columns}}},
+      {"status", to_string(trajectory.status)},
+      {"start", {{"q", json_of(trajectory.q_at(0))}, {"v", json_of(trajectory.v_at(0))}}},
+      {"impacts", impacts},
+      {"final", {{"time", last * p.dt}, {"column", last}, {"q", json_of(trajectory.q_at(last))}, {"v", json_of(trajectory.v_at(last))}}},
+      {"files", files}};
+  return report.dump(2) + "\n";
+}
+
+std::string lcp_text(const LcpProblem& problem, const std::vector<LcpResult>& results, bool all) {
+  std::string text;
+  if (all) {
+    text = fmt::format("{} vertex solution{} of the LCP with n = {}\n", results.size(), results.size() == 1 ? "" : "s",
+                       problem.size());
+  }
+  for (const LcpResult& result : results) {
+    std::vector<std::size_t> basic;
+    for (std::size_t i = 0; i < result.basis.size(); ++i) {
+      if (result.basis[i]) basic.push_back(i);
+    }
+    text += fmt::format("{}status    {}\nz         {}\nw         {}\nresidual  {:.3g}\npivots    {}\nbasic z   {}\n",
+                        text.empty() ? "" : "\n", to_string(result.status), fmt::join(result.z, " "),
+                        fmt::join(result.w, " "), result.residual, result.pivots, fmt::join(basic, " "));
+  }
+  return text;
+}
+
+std::string lcp_json(const LcpProblem& problem, const std::vector<LcpResult>& results, bool all) {
+  if (!all) return json_of(results.front()).dump(2) + "\n";
+  Json solutions = Json::array();
+  for (const LcpResult& result : results) solutions.push_back(json_of(result));
+  const Json report = {{"n", problem.size()}, {"solutions", solutions}};
+  return report.dump(2) + "\n";
+}
+
+}  // namespace tumble::cli

@@ -1,0 +1,46 @@
+// A step takes no memory from the heap.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "tumble/drop/drop.hpp"
+
+namespace {
+std::atomic<long> num_allocations{0};
+}
+
+void* operator new(std::size_t size) {
+  ++num_allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace tumble::drop {
+namespace {
+
+TEST(Allocations, AStepMakesNone) {
+  State state{{0.0, 0.2, 0.5}, {1.0, -2.0, 3.0}};
+  int num_contacts = 0;
+  const long before = num_allocations;
+  for (int k = 0; k < 500; ++k) {
+    const auto [next, record] = step_with_record(state.q, state.v);
+    if (record.z[0] > 0.0) ++num_contacts;
+    state = next;
+  }
+  EXPECT_EQ(num_allocations, before);
+  EXPECT_GT(num_contacts, 10);
+}
+
+TEST(Allocations, ATrajectoryMakesTwo) {  // q and v
+  const long before = num_allocations;
+  const Trajectory trajectory = simulate({0.0, 0.2, 0.5}, {1.0, -2.0, 3.0}, {.columns = 1000});
+  EXPECT_EQ(num_allocations, before + 2);
+  EXPECT_EQ(trajectory.columns, 1000);
+}
+
+}  // namespace
+}  // namespace tumble::drop

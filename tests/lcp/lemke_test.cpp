@@ -1,0 +1,107 @@
+#include "tumble/lcp/lemke.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "../random_contact.hpp"
+#include "tumble/lcp/enumerate.hpp"
+#include "tumble/lcp/residual.hpp"
+
+namespace tumble {
+namespace {
+
+// Positive definite but not symmetric: exactly one solution.
+LcpProblem random_positive_definite(test::Random& random, std::size_t n) {
+  std::vector<double> root(n * n);
+  for (double& entry : root) entry = random.uniform(-1.0, 1.0);
+  LcpProblem problem;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      double sum = i == j ? 0.1 : 0.0;
+      for (std::size_t k = 0; k < n; ++k) sum += root[i * n + k] * root[j * n + k];
+      sum += (i < j ? 1.0 : (i > j ? -1.0 : 0.0)) * 0.3;
+      problem.M.push_back(sum);
+    }
+    problem.q.push_back(random.uniform(-1.0, 1.0));
+  }
+  return problem;
+}
+
+TEST(Lemke, AgreesWithEnumerationWhereTheSolutionIsUnique) {
+  test::Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    const LcpProblem problem = random_positive_definite(random, 1 + static_cast<std::size_t>(i) % 8);
+    const LcpResult pivoted = lemke(problem);
+    const std::vector<LcpResult> all = enumerate_solutions(problem);
+    ASSERT_EQ(pivoted.status, LcpStatus::solved);
+    ASSERT_EQ(all.size(), 1u);
+    // M is at least 0.1 in every direction: errors of 1e-16 grow at most a thousandfold.
+    for (std::size_t k = 0; k < problem.size(); ++k) EXPECT_NEAR(pivoted.z[k], all[0].z[k], 1e-12);
+  }
+}
+
+TEST(Lemke, SolvesLargeProblems) {
+  test::Random random(6);
+  for (const std::size_t n : {50u, 120u, 200u}) {
+    const LcpProblem problem = random_positive_definite(random, n);
+    const LcpResult result = lemke(problem);
+    EXPECT_EQ(result.status, LcpStatus::solved);
+    EXPECT_LT(residual(problem, result.z).largest(), 1e-12) << n;  // n^2 round-off at most
+  }
+}
+
+TEST(Lemke, GivesTheScaledSolutionOfAScaledProblemBitForBit) {
+  test::Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const LcpProblem problem = random_positive_definite(random, 6);
+    LcpProblem scaled = problem;  // other units of force and velocity, by powers of two
+    for (double& entry : scaled.M) entry = std::ldexp(entry, 17 - 40);
+    for (double& entry : scaled.q) entry = std::ldexp(entry, -40);
+    const LcpResult a = lemke(problem);
+    const LcpResult b = lemke(scaled);
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(std::ldexp(a.z[k], -17), b.z[k]);
+  }
+}
+
+TEST(Lemke, ReturnsWAndBasisThatBelongToZ) {
+  test::Random random(8);
+  const LcpProblem problem = random_positive_definite(random, 10);
+  const LcpResult result = lemke(problem);
+  EXPECT_EQ(result.w, complement(problem, result.z));
+  for (std::size_t k = 0; k < 10; ++k) {
+    EXPECT_EQ(result.basis[k] != 0, result.z[k] > 0.0);
+    EXPECT_NEAR(result.basis[k] ? result.w[k] : result.z[k], 0.0, 1e-14);
+  }
+}
+
+TEST(Lemke, StopsAtTheAllowedNumberOfPivots) {
+  test::Random random(9);
+  const LcpResult result = lemke(random_positive_definite(random, 30), {.max_pivots = 3});
+  EXPECT_EQ(result.status, LcpStatus::iteration_limit);
+  EXPECT_EQ(result.pivots, 3);
+  EXPECT_GT(result.residual, 1e-8);
+}
+
+TEST(Lemke, RefusesBadProblemsAndSettings) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(lemke({{}, {}, {}}), std::invalid_argument);
+  EXPECT_THROW(lemke({{1, 2, 3}, {1, 1}, {}}), std::invalid_argument);
+  EXPECT_THROW(lemke({{nan}, {1}, {}}), std::invalid_argument);
+  EXPECT_THROW(lemke({{1}, {-std::numeric_limits<double>::infinity()}, {}}), std::invalid_argument);
+  EXPECT_THROW(lemke({{1}, {1}, {-1.0}}), std::invalid_argument);
+  EXPECT_THROW(lemke({{1}, {1}, {}}, {.max_pivots = -1}), std::invalid_argument);
+  EXPECT_THROW(lemke({{1}, {1}, {}}, {.pivot_tolerance = 1.0}), std::invalid_argument);
+  EXPECT_THROW(lemke({{1}, {1}, {}}, {.accepted_residual = nan}), std::invalid_argument);
+}
+
+TEST(Lemke, ReportsNumbersBeyondDoubleAsAStatus) {
+  const LcpResult result = lemke({{1e-300}, {-1e300}, {}});  // z = 1e600
+  EXPECT_NE(result.status, LcpStatus::solved);
+  EXPECT_FALSE(result.residual < 1.0);
+}
+
+}  // namespace
+}  // namespace tumble
