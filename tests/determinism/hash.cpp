@@ -41,9 +41,10 @@ std::uint64_t hash_of_drops() {
                                               .g = random.uniform(1.0, 20.0),
                                               .columns = 301};
     const double turns = i % 10 == 0 ? 1e7 : 10.0;
-    const auto trajectory = tumble::drop::simulate(
-        {random.uniform(-1.0, 1.0), random.uniform(0.0, 2.0), random.uniform(-turns, turns)},
-        {random.uniform(-3.0, 3.0), random.uniform(-3.0, 1.0), random.uniform(-20.0, 20.0)}, parameters);
+    // Named one after the other: compilers differ in the order in which they evaluate arguments.
+    const tumble::Vector3 q0 = {random.uniform(-1.0, 1.0), random.uniform(0.0, 2.0), random.uniform(-turns, turns)};
+    const tumble::Vector3 v0 = {random.uniform(-3.0, 3.0), random.uniform(-3.0, 1.0), random.uniform(-20.0, 20.0)};
+    const auto trajectory = tumble::drop::simulate(q0, v0, parameters);
     hash.add(trajectory.q);
     hash.add(trajectory.v);
   }

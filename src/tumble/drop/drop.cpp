@@ -68,7 +68,7 @@ struct LowestCorner {
   int corner;
 };
 
-LowestCorner find_contact(const Vector3& q, double l) {
+inline LowestCorner find_contact(const Vector3& q, double l) {
   const std::array<Arm, 4> arms = corner_arms(q[2], l);
   const int corner = lowest(arms);
   const Arm r = arms[corner];
@@ -109,35 +109,33 @@ bool has_contact_structure(const Lcp& lcp) {
 
 // ---- Part 3 ----
 
-// The step of the document. Not in contact it is the same with f_c = 0 and no lift.
-RecordedStep advance(const Vector3& q, const Vector3& v, const Model& model) {
+// The step of the document, in place; fills `record`. Not in contact it is the same with f_c = 0 and no lift.
+// Inlined so that `simulate`, which needs only the status, pays for nothing else.
+[[gnu::always_inline]] inline void advance(State& state, StepRecord& record, const Model& model) {
+  auto& [q, v] = state;
   const Parameters& p = model.parameters;
-  RecordedStep next;
   const auto [contacts, corner] = find_contact(q, p.l);
   const auto& [J, phi] = contacts;
-  next.record.gap = phi;
-  next.record.corner = corner;
+  record = {.gap = phi, .corner = corner};
 
   Vector3 acceleration = {0.0, -p.g, 0.0};  // M^-1 f_e
   double lift = 0.0;
   if (phi < p.delta) {
-    const Lcp lcp = form_lcp(J, v, model);
-    const OneContactSolution solution = solve_one_contact(as_one_contact(lcp));
+    const OneContactSolution solution = solve_one_contact(as_one_contact(form_lcp(J, v, model)));
     for (std::size_t i = 0; i < 3; ++i) {
       acceleration[i] += model.M_inverse[i] * (J.n[i] * solution.f_n + J.t[i] * solution.f_t);  // f_t = f_t2 - f_t1
     }
     lift = p.delta;
-    next.record.z = as_z(solution);
-    next.record.mode = solution.mode;
-    next.record.status = solution.status;
-    next.record.residual = solution.residual;
+    record.z = as_z(solution);
+    record.mode = solution.mode;
+    record.status = solution.status;
+    record.residual = solution.residual;
   }
-  for (std::size_t i = 0; i < 3; ++i) next.state.v[i] = v[i] + p.dt * acceleration[i];
-  for (std::size_t i = 0; i < 3; ++i) next.state.q[i] = q[i] + p.dt * next.state.v[i];
-  next.state.q[1] += lift;
+  for (std::size_t i = 0; i < 3; ++i) v[i] += p.dt * acceleration[i];
+  for (std::size_t i = 0; i < 3; ++i) q[i] += p.dt * v[i];  // with the new velocity
+  q[1] += lift;
 
-  if (!all_finite(next.state.q) || !all_finite(next.state.v)) next.record.status = LcpStatus::numerical;
-  return next;
+  if (!all_finite(q) || !all_finite(v)) record.status = LcpStatus::numerical;
 }
 
 // ---- Part 4 ----
@@ -162,16 +160,16 @@ Trajectory run(const Vector3& q0, const Vector3& v0, const Model& model, OnStep 
     for (std::size_t i = 0; i < 3; ++i) trajectory.q[i * columns + k] = state.q[i];
     for (std::size_t i = 0; i < 3; ++i) trajectory.v[i * columns + k] = state.v[i];
     if (k + 1 == columns) break;
-    const RecordedStep next = advance(state.q, state.v, model);
-    on_step(next.record);
-    if (next.record.status != LcpStatus::solved) {
+    StepRecord record;
+    advance(state, record, model);
+    on_step(record);
+    if (record.status != LcpStatus::solved) {
       keep_columns(trajectory.q, columns, k + 1);
       keep_columns(trajectory.v, columns, k + 1);
       trajectory.columns = static_cast<int>(k + 1);
-      trajectory.status = next.record.status;
+      trajectory.status = record.status;
       break;
     }
-    state = next.state;
   }
   return trajectory;
 }
@@ -231,7 +229,9 @@ RecordedStep step_with_record(const Vector3& q, const Vector3& v, const Paramete
   const Model model(parameters);
   require_finite(q, "q");
   require_finite(v, "v");
-  return advance(q, v, model);
+  RecordedStep step{{q, v}, {}};
+  advance(step.state, step.record, model);
+  return step;
 }
 
 State step(const Vector3& q, const Vector3& v, const Parameters& parameters) {
@@ -260,7 +260,8 @@ Record simulate_with_record(const Vector3& q0, const Vector3& v0, const Paramete
   // The last column is not stepped from, but its contact is part of the record; a failed step has left its own.
   const int last = record.trajectory.columns - 1;
   if (record.trajectory.status == LcpStatus::solved) {
-    record.steps.push_back(advance(record.trajectory.q_at(last), record.trajectory.v_at(last), model).record);
+    State state{record.trajectory.q_at(last), record.trajectory.v_at(last)};
+    advance(state, record.steps.emplace_back(), model);
   }
   return record;
 }

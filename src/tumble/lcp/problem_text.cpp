@@ -109,13 +109,17 @@ std::string to_text(const LcpProblem& problem) {
   std::string text = "M\n";
   for (std::size_t i = 0; i < problem.size(); ++i) {
     for (std::size_t j = 0; j < problem.size(); ++j) {
-      text += (j > 0 ? " " : "") + to_text(problem(i, j));
+      if (j > 0) text += ' ';
+      text += to_text(problem(i, j));
     }
     text += "\n";
   }
   text += "q\n";
-  for (std::size_t i = 0; i < problem.size(); ++i) text += (i > 0 ? " " : "") + to_text(problem.q[i]);
-  return text + "\n";
+  for (std::size_t i = 0; i < problem.size(); ++i) {
+    if (i > 0) text += ' ';
+    text += to_text(problem.q[i]);
+  }
+  return text + '\n';
 }
 
 }  // namespace tumble
