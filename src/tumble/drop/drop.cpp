@@ -109,19 +109,27 @@ bool has_contact_structure(const Lcp& lcp) {
 
 // ---- Part 3 ----
 
+// v' = v + dt M^-1 (all forces),  q' = q + dt v' + (0, lift, 0), in place. False if a number left the range of double.
+inline bool integrate(State& state, const Vector3& acceleration, double lift, double dt) {
+  auto& [q, v] = state;
+  for (std::size_t i = 0; i < 3; ++i) v[i] += dt * acceleration[i];
+  for (std::size_t i = 0; i < 3; ++i) q[i] += dt * v[i];
+  q[1] += lift;
+  return all_finite(q) && all_finite(v);
+}
+
 // The step of the document, in place; fills `record`. Not in contact it is the same with f_c = 0 and no lift.
 // Inlined so that `simulate`, which needs only the status, pays for nothing else.
 [[gnu::always_inline]] inline void advance(State& state, StepRecord& record, const Model& model) {
-  auto& [q, v] = state;
   const Parameters& p = model.parameters;
-  const auto [contacts, corner] = find_contact(q, p.l);
+  const auto [contacts, corner] = find_contact(state.q, p.l);
   const auto& [J, phi] = contacts;
   record = {.gap = phi, .corner = corner};
 
   Vector3 acceleration = {0.0, -p.g, 0.0};  // M^-1 f_e
   double lift = 0.0;
   if (phi < p.delta) {
-    const OneContactSolution solution = solve_one_contact(as_one_contact(form_lcp(J, v, model)));
+    const OneContactSolution solution = solve_one_contact(as_one_contact(form_lcp(J, state.v, model)));
     for (std::size_t i = 0; i < 3; ++i) {
       acceleration[i] += model.M_inverse[i] * (J.n[i] * solution.f_n + J.t[i] * solution.f_t);  // f_t = f_t2 - f_t1
     }
@@ -131,11 +139,7 @@ bool has_contact_structure(const Lcp& lcp) {
     record.status = solution.status;
     record.residual = solution.residual;
   }
-  for (std::size_t i = 0; i < 3; ++i) v[i] += p.dt * acceleration[i];
-  for (std::size_t i = 0; i < 3; ++i) q[i] += p.dt * v[i];  // with the new velocity
-  q[1] += lift;
-
-  if (!all_finite(q) || !all_finite(v)) record.status = LcpStatus::numerical;
+  if (!integrate(state, acceleration, lift, p.dt)) record.status = LcpStatus::numerical;
 }
 
 // ---- Part 4 ----
@@ -148,9 +152,9 @@ void keep_columns(std::vector<double>& rows, std::size_t stride, std::size_t col
   rows.resize(3 * columns);
 }
 
-// Fills the columns one step after the other; `on_step` sees the record of each step, also of one that fails.
-template <class OnStep>
-Trajectory run(const Vector3& q0, const Vector3& v0, const Model& model, OnStep on_step) {
+// Fills the columns one step after the other. `take_step(state)` advances the state and returns the status.
+template <class TakeStep>
+Trajectory run(const Vector3& q0, const Vector3& v0, const Model& model, TakeStep take_step) {
   require_finite(q0, "q0");
   require_finite(v0, "v0");
   const auto columns = static_cast<std::size_t>(model.parameters.columns);
@@ -160,14 +164,11 @@ Trajectory run(const Vector3& q0, const Vector3& v0, const Model& model, OnStep 
     for (std::size_t i = 0; i < 3; ++i) trajectory.q[i * columns + k] = state.q[i];
     for (std::size_t i = 0; i < 3; ++i) trajectory.v[i * columns + k] = state.v[i];
     if (k + 1 == columns) break;
-    StepRecord record;
-    advance(state, record, model);
-    on_step(record);
-    if (record.status != LcpStatus::solved) {
+    trajectory.status = take_step(state);
+    if (trajectory.status != LcpStatus::solved) {
       keep_columns(trajectory.q, columns, k + 1);
       keep_columns(trajectory.v, columns, k + 1);
       trajectory.columns = static_cast<int>(k + 1);
-      trajectory.status = record.status;
       break;
     }
   }
@@ -247,7 +248,18 @@ State step(const Vector3& q, const Vector3& v, const Parameters& parameters) {
 // ---- Part 4 ----
 
 Trajectory simulate(const Vector3& q0, const Vector3& v0, const Parameters& parameters) {
-  return run(q0, v0, Model(parameters), [](const StepRecord&) {});
+  const Model model(parameters);
+  // Above this height no corner is within delta, whatever the angle (0.7072 > sqrt(1/2)): the distance need not be known.
+  const double clear_height = parameters.delta + 0.7072 * parameters.l;
+  return run(q0, v0, model, [&](State& state) {
+    if (state.q[1] > clear_height) {
+      const bool is_finite = integrate(state, {0.0, -parameters.g, 0.0}, 0.0, parameters.dt);
+      return is_finite ? LcpStatus::solved : LcpStatus::numerical;
+    }
+    StepRecord record;
+    advance(state, record, model);
+    return record.status;
+  });
 }
 
 Record simulate_with_record(const Vector3& q0, const Vector3& v0, const Parameters& parameters) {
@@ -255,11 +267,14 @@ Record simulate_with_record(const Vector3& q0, const Vector3& v0, const Paramete
   Record record;
   record.parameters = parameters;
   record.steps.reserve(static_cast<std::size_t>(parameters.columns));
-  record.trajectory = run(q0, v0, model, [&](const StepRecord& step) { record.steps.push_back(step); });
+  record.trajectory = run(q0, v0, model, [&](State& state) {
+    advance(state, record.steps.emplace_back(), model);
+    return record.steps.back().status;
+  });
 
   // The last column is not stepped from, but its contact is part of the record; a failed step has left its own.
-  const int last = record.trajectory.columns - 1;
   if (record.trajectory.status == LcpStatus::solved) {
+    const int last = record.trajectory.columns - 1;
     State state{record.trajectory.q_at(last), record.trajectory.v_at(last)};
     advance(state, record.steps.emplace_back(), model);
   }

@@ -1,37 +1,43 @@
 #include "tumble/lcp/one_contact.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
 
+// By value and as one comparison: a maxsd, where std::max by reference may become a branch.
+double larger(double a, double b) { return a > b ? a : b; }
+double smaller(double a, double b) { return a < b ? a : b; }
+
+// One row's share of the residual: the worst of -w, -z and min(w, z), for relative w and z.
+double violation(double w, double z) { return larger(larger(-w, -z), smaller(w, z)); }
+
 // `residual` written out for the four rows of one contact: rows 2 and 3 share their d.
 double one_contact_residual(const OneContact& c, const Vector4& z) {
   const auto [f_n, f_t1, f_t2, slip_speed] = z;
+  const double velocity_size = larger(std::abs(c.b_n), std::abs(c.b_t));
+  if (velocity_size == 0.0) return 0.0;
+
   const double f_t = f_t2 - f_t1;
   const double u_n = c.A_nn * f_n + c.A_nt * f_t + c.b_n;
   const double u_t = c.A_nt * f_n + c.A_tt * f_t + c.b_t;
   const double cone = c.friction * f_n - f_t1 - f_t2;
 
-  const double velocity_size = std::max(std::abs(c.b_n), std::abs(c.b_t));
-  if (velocity_size == 0.0) return 0.0;
   const double A_nt = std::abs(c.A_nt);
   const double f_t_sum = f_t1 + f_t2;
   const double inverse_d_n = 1.0 / (velocity_size + std::abs(c.b_n) + c.A_nn * f_n + A_nt * f_t_sum);
   const double inverse_d_t = 1.0 / (velocity_size + std::abs(c.b_t) + A_nt * f_n + c.A_tt * f_t_sum + slip_speed);
   const double inverse_d_cone = c.A_nn / (velocity_size + c.A_nn * (c.friction * f_n + f_t_sum));
 
-  const double s_n = f_n * std::max({c.A_nn * inverse_d_n, A_nt * inverse_d_t, c.friction * inverse_d_cone});
-  const double s_t = std::max({A_nt * inverse_d_n, c.A_tt * inverse_d_t, inverse_d_cone});
-  const double s_slip = slip_speed * inverse_d_t;
+  const double inverse_s_n =
+      larger(larger(c.A_nn * inverse_d_n, A_nt * inverse_d_t), c.friction * inverse_d_cone);
+  const double inverse_s_t = larger(larger(A_nt * inverse_d_n, c.A_tt * inverse_d_t), inverse_d_cone);
 
-  // One row: the worst of -w, -z and min(w, z).
-  const auto violation = [](double w, double relative_z) {
-    return std::max({-w, -relative_z, std::min(w, relative_z)});
-  };
-  return std::max({violation(u_n * inverse_d_n, s_n), violation((slip_speed - u_t) * inverse_d_t, f_t1 * s_t),
-                   violation((slip_speed + u_t) * inverse_d_t, f_t2 * s_t), violation(cone * inverse_d_cone, s_slip)});
+  const double normal = violation(u_n * inverse_d_n, f_n * inverse_s_n);
+  const double left = violation((slip_speed - u_t) * inverse_d_t, f_t1 * inverse_s_t);
+  const double right = violation((slip_speed + u_t) * inverse_d_t, f_t2 * inverse_s_t);
+  const double friction = violation(cone * inverse_d_cone, slip_speed * inverse_d_t);
+  return larger(larger(normal, left), larger(right, friction));
 }
 
 // f_n, f_t, slip speed and mode; see docs/theory/one_contact.md.
@@ -80,7 +86,7 @@ std::string_view to_string(ContactMode mode) {
 }
 
 LcpProblem as_lcp(const OneContact& c) {
-  const double velocity_size = std::max(std::abs(c.b_n), std::abs(c.b_t));
+  const double velocity_size = larger(std::abs(c.b_n), std::abs(c.b_t));
   return {{c.A_nn, -c.A_nt, c.A_nt, 0.0,    //
            -c.A_nt, c.A_tt, -c.A_tt, 1.0,   //
            c.A_nt, -c.A_tt, c.A_tt, 1.0,    //
@@ -90,15 +96,16 @@ LcpProblem as_lcp(const OneContact& c) {
 }
 
 Vector4 as_z(const OneContactSolution& solution) {
-  return {solution.f_n, std::max(-solution.f_t, 0.0), std::max(solution.f_t, 0.0), solution.slip_speed};
+  return {solution.f_n, larger(-solution.f_t, 0.0), larger(solution.f_t, 0.0), solution.slip_speed};
 }
 
 OneContactSolution solve_one_contact(const OneContact& contact) {
   constexpr double accepted_residual = 1e-10;  // round-off of a few operations, times the condition of A up to 1e5
   OneContactSolution solution = choose_mode(contact);
   solution.residual = one_contact_residual(contact, as_z(solution));
-  // A NaN anywhere fails a comparison.
-  const bool is_solved = solution.residual <= accepted_residual && contact.A_nn > 0.0 && solution.f_n <= 1e300;
+  // A NaN or an infinity fails one of these, or has made the residual large.
+  const bool is_finite = solution.f_n + std::abs(solution.f_t) + solution.slip_speed <= 1e300;
+  const bool is_solved = is_finite && solution.residual <= accepted_residual && contact.A_nn > 0.0;
   solution.status = is_solved ? LcpStatus::solved : LcpStatus::numerical;
   return solution;
 }

@@ -1,0 +1,74 @@
+// Times of single calls. Run by benchmarks/run.py, or alone: build/benchmarks/micro/tumble_micro.
+#include <benchmark/benchmark.h>
+
+#include "tumble/tumble.hpp"
+
+namespace {
+
+using namespace tumble;
+
+const Vector3 k_course_q0 = {0.0, 1.5, 0.5235987755982988};
+const Vector3 k_course_v0 = {0.0, -0.2, 0.0};
+
+// A contact of the document's square, approaching at 1.2 m/s; the slip decides the mode.
+constexpr OneContact contact_with_slip(double slip) { return {0.083, -0.03, 0.06, -1.2, slip, 0.3}; }
+
+void one_contact(benchmark::State& state, OneContact contact) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(contact);
+    OneContactSolution solution = solve_one_contact(contact);
+    benchmark::DoNotOptimize(solution);
+  }
+}
+BENCHMARK_CAPTURE(one_contact, stick, contact_with_slip(0.5));
+BENCHMARK_CAPTURE(one_contact, slip, contact_with_slip(3.0));
+BENCHMARK_CAPTURE(one_contact, open, OneContact{0.083, -0.03, 0.06, 0.2, 0.5, 0.3});
+
+template <class Settings>
+void general_solver(benchmark::State& state) {
+  LcpProblem problem = as_lcp(contact_with_slip(3.0));
+  for (auto _ : state) {
+    LcpResult result = solve_lcp(problem, Settings{});
+    benchmark::DoNotOptimize(result);
+  }
+}
+BENCHMARK(general_solver<LemkeSettings>)->Name("lemke, one contact");
+BENCHMARK(general_solver<EnumerateSettings>)->Name("enumerate, one contact");
+
+void step(benchmark::State& state, Vector3 q, Vector3 v) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(q);
+    drop::State next = drop::step(q, v);
+    benchmark::DoNotOptimize(next);
+  }
+}
+BENCHMARK_CAPTURE(step, free, k_course_q0, k_course_v0);
+BENCHMARK_CAPTURE(step, contact, Vector3{0.0, 0.09, 0.5}, Vector3{0.1, -2.0, 3.0});
+
+void simulate_course_start(benchmark::State& state) {
+  for (auto _ : state) {
+    drop::Trajectory trajectory = drop::simulate(k_course_q0, k_course_v0);
+    benchmark::DoNotOptimize(trajectory.q.data());
+  }
+}
+BENCHMARK(simulate_course_start);
+
+void record_course_start(benchmark::State& state) {
+  for (auto _ : state) {
+    drop::Record record = drop::simulate_with_record(k_course_q0, k_course_v0);
+    benchmark::DoNotOptimize(record.steps.data());
+  }
+}
+BENCHMARK(record_course_start);
+
+void sine_and_cosine(benchmark::State& state) {
+  double angle = 0.5;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(angle);
+    SinCos result = sin_cos(angle);
+    benchmark::DoNotOptimize(result);
+  }
+}
+BENCHMARK(sine_and_cosine);
+
+}  // namespace
