@@ -1,0 +1,89 @@
+"""The library as others take it: find_package, pkg-config, add_subdirectory, and the Python package by pip."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tumble import drop
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("TUMBLE_BUILD", ROOT / "build"))
+CONSUMER = ROOT / "tests/install/consumer"
+COURSE_START = ([0.0, 1.5, 0.5235987755982988], [0.0, -0.2, 0.0])
+
+
+def run(*command: object, **options: object) -> str:
+    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
+def check_output(printed: str) -> None:
+    q, _ = drop.simulate(*COURSE_START)
+    assert [float(word) for word in printed.split()] == list(q[:, -1])  # to the bit
+
+
+@pytest.fixture(scope="module")
+def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("prefix")
+    run("cmake", "--install", BUILD, "--prefix", folder)
+    return folder
+
+
+def test_find_package(prefix: Path, tmp_path: Path) -> None:
+    run("cmake", "-S", CONSUMER, "-B", tmp_path, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "--build", tmp_path)
+    check_output(run(tmp_path / "consumer"))
+
+
+def test_find_package_refuses_another_minor_version(prefix: Path, tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\nfind_package(tumble 0.99 REQUIRED)\n"
+    )
+    command = ["cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}"]
+    assert subprocess.run([str(word) for word in command], capture_output=True).returncode != 0
+
+
+def test_pkg_config(prefix: Path, tmp_path: Path) -> None:
+    folder = next(prefix.rglob("pkgconfig"))
+    flags = run("pkg-config", "--cflags", "--libs", "tumble", env={**os.environ, "PKG_CONFIG_PATH": str(folder)}).split()
+    run("g++", "-std=c++20", CONSUMER / "consumer.cpp", *flags, "-o", tmp_path / "consumer")
+    check_output(run(tmp_path / "consumer"))
+
+
+def test_add_subdirectory(tmp_path: Path) -> None:
+    run("cmake", "-S", CONSUMER, "-B", tmp_path, "-G", "Ninja", f"-DTUMBLE_SOURCE_DIR={ROOT}")
+    run("cmake", "--build", tmp_path)
+    check_output(run(tmp_path / "consumer"))
+
+
+def test_installed_program_runs(prefix: Path) -> None:
+    assert run(prefix / "bin/tumble", "--version").startswith("tumble ")
+
+
+def test_pip_install_in_a_virtual_environment(tmp_path: Path) -> None:
+    environment = tmp_path / "venv"
+    run(sys.executable, "-m", "venv", "--system-site-packages", environment)
+    python = environment / "bin/python"
+    clean = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    run(python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", ROOT, env=clean)
+    code = (
+        "import tumble, tumble.course, tumble.grade\n"
+        "from tumble.drop import simulate\n"
+        f"q, v = simulate(*{COURSE_START!r})\n"
+        "print(tumble.__file__)\nprint(*map(repr, map(float, q[:, -1])))\n"
+    )
+    where, numbers = run(python, "-c", code, env=clean, cwd=tmp_path).strip().splitlines()
+    assert where.startswith(str(environment))
+    check_output(numbers)
+    help_text = run(python, "-m", "tumble.course", "--help", env=clean, cwd=tmp_path)
+    assert "new" in help_text
+    run(python, "-m", "tumble.course", "new", tmp_path / "assignment", env=clean, cwd=tmp_path)  # the templates are there
+    assert np.isfinite(q_of(numbers)).all()
+
+
+def q_of(numbers: str) -> np.ndarray:
+    return np.array([float(word) for word in numbers.split()])
