@@ -66,6 +66,15 @@ TEST(Lemke, GivesTheScaledSolutionOfAScaledProblemBitForBit) {
   }
 }
 
+// The first unknown is many orders below the others; no tolerance may swallow it.
+TEST(Lemke, SolvesRowsOfVeryDifferentSizes) {
+  for (const double small : {-1.8189894e-12, -1.42108547e-14, -1e-200}) {
+    const LcpResult result = lemke({{.1, 0, 0, 0, .1, 0, 0, 0, .1}, {small, -1, -1}, {}});
+    EXPECT_EQ(result.status, LcpStatus::solved);
+    EXPECT_DOUBLE_EQ(result.z[0], -10 * small);
+  }
+}
+
 TEST(Lemke, ReturnsWAndBasisThatBelongToZ) {
   test::Random random(8);
   const LcpProblem problem = random_positive_definite(random, 10);

@@ -56,7 +56,7 @@ def render(
     if save is not None:
         return _save(poses, params, Path(save))
     if _in_notebook():
-        from IPython.display import HTML  # type: ignore[import-not-found, unused-ignore]
+        from IPython.display import HTML
 
         animation, close = _animate(poses, params)
         html = HTML(animation.to_jshtml(fps=_FRAMES_PER_SECOND))
@@ -152,7 +152,7 @@ def _write_picture(poses: NDArray[np.float64], params: Parameters, path: Path) -
         axes.add_patch(_square(poses[:, column], params, alpha=strength, fill=False))
     axes.add_patch(_square(poses[:, -1], params))
     axes.plot(poses[0], poses[1], color="0.3", linewidth=0.8)
-    axes.figure.savefig(path, dpi=150)  # type: ignore[union-attr, unused-ignore]
+    axes.figure.savefig(path, dpi=150)
 
 
 def _square(pose: NDArray[np.float64], params: Parameters, alpha: float = 1.0, fill: bool = True) -> Any:

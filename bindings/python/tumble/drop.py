@@ -64,6 +64,8 @@ ValueError
     Naming the field, its value and the allowed range.
 """
 
+NoSolution.__doc__ = """An LCP has no solution, or a step left the range of double arithmetic; the text has the status."""
+
 _DEFAULTS = Parameters()
 
 

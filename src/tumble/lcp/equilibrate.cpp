@@ -14,10 +14,9 @@ double rough_log2(double x) {
   return exponent + 2.0 * mantissa - 2.0;
 }
 
-// Rows that share a column, directly or through others, get the same label.
-std::vector<std::size_t> coupled_rows(const LcpProblem& problem) {
+void find_blocks(const LcpProblem& problem, Equilibration& scales) {
   const std::size_t n = problem.size();
-  std::vector<std::size_t> parent(2 * n);
+  std::vector<std::size_t> parent(2 * n);  // rows, then columns
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto root = [&](std::size_t node) {
     while (parent[node] != node) node = parent[node] = parent[parent[node]];
@@ -28,9 +27,10 @@ std::vector<std::size_t> coupled_rows(const LcpProblem& problem) {
       if (problem(i, j) != 0.0) parent[root(i)] = root(n + j);
     }
   }
-  std::vector<std::size_t> label(n);
-  for (std::size_t i = 0; i < n; ++i) label[i] = root(i);
-  return label;
+  for (std::size_t i = 0; i < n; ++i) {
+    scales.row_block.push_back(root(i));
+    scales.column_block.push_back(root(n + i));
+  }
 }
 
 }  // namespace
@@ -64,24 +64,29 @@ Equilibration equilibrate(const LcpProblem& problem) {
     fit(row, column, n, 1);
     fit(column, row, 1, n);
   }
-  Equilibration scales{std::vector<int>(n), std::vector<int>(n)};
+  Equilibration scales{std::vector<int>(n), std::vector<int>(n), {}, {}};
   for (std::size_t i = 0; i < n; ++i) {
     scales.row[i] = static_cast<int>(std::lround(row[i]));
     scales.column[i] = static_cast<int>(std::lround(column[i]));
   }
+  find_blocks(problem, scales);
   return scales;
 }
 
-std::vector<double> typical_row_sizes(const LcpProblem& problem) {
-  const std::size_t n = problem.size();
-  const Equilibration scales = equilibrate(problem);
-  const std::vector<std::size_t> label = coupled_rows(problem);
-  std::vector<double> largest(2 * n, 0.0);  // per label, in equilibrated units
-  for (std::size_t i = 0; i < n; ++i) {
-    largest[label[i]] = std::max(largest[label[i]], std::ldexp(std::abs(problem.q[i]), scales.row[i]));
+std::vector<double> block_sizes(const LcpProblem& problem, const Equilibration& scales) {
+  std::vector<double> largest(2 * problem.size(), 0.0);
+  for (std::size_t i = 0; i < problem.size(); ++i) {
+    double& size = largest[scales.row_block[i]];
+    size = std::max(size, std::ldexp(std::abs(problem.q[i]), scales.row[i]));
   }
-  std::vector<double> sizes(n);
-  for (std::size_t i = 0; i < n; ++i) sizes[i] = std::ldexp(largest[label[i]], -scales.row[i]);
+  return largest;
+}
+
+std::vector<double> typical_row_sizes(const LcpProblem& problem) {
+  const Equilibration scales = equilibrate(problem);
+  const std::vector<double> largest = block_sizes(problem, scales);
+  std::vector<double> sizes(problem.size());
+  for (std::size_t i = 0; i < problem.size(); ++i) sizes[i] = std::ldexp(largest[scales.row_block[i]], -scales.row[i]);
   return sizes;
 }
 

@@ -17,7 +17,7 @@ namespace {
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Index = Eigen::Index;
 
-// The problem in equilibrated units, with |q| at most 1, and the way back.
+// The problem in equilibrated units, with |q| at most 1 in each block, and the way back.
 struct ScaledProblem {
   RowMajorMatrix M;
   Eigen::VectorXd q;
@@ -27,16 +27,15 @@ struct ScaledProblem {
 ScaledProblem scale(const LcpProblem& problem) {
   const std::size_t n = problem.size();
   const Equilibration scales = equilibrate(problem);
+  std::vector<int> q_exponents(2 * n);  // per block
+  const std::vector<double> sizes = block_sizes(problem, scales);
+  for (std::size_t block = 0; block < 2 * n; ++block) std::frexp(sizes[block], &q_exponents[block]);
+
   ScaledProblem scaled{RowMajorMatrix(n, n), Eigen::VectorXd(n), std::vector<int>(n)};
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) scaled.M(i, j) = std::ldexp(problem(i, j), scales.row[i] + scales.column[j]);
-    scaled.q[i] = std::ldexp(problem.q[i], scales.row[i]);
-  }
-  int q_exponent = 0;
-  std::frexp(scaled.q.cwiseAbs().maxCoeff(), &q_exponent);
-  for (std::size_t i = 0; i < n; ++i) {
-    scaled.q[i] = std::ldexp(scaled.q[i], -q_exponent);
-    scaled.z_exponent[i] = scales.column[i] + q_exponent;
+    scaled.q[i] = std::ldexp(problem.q[i], scales.row[i] - q_exponents[scales.row_block[i]]);
+    scaled.z_exponent[i] = scales.column[i] + q_exponents[scales.column_block[i]];
   }
   return scaled;
 }
@@ -46,7 +45,7 @@ ScaledProblem scale(const LcpProblem& problem) {
 class Tableau {
  public:
   explicit Tableau(const ScaledProblem& problem)
-      : n_(problem.q.size()), entries_(RowMajorMatrix::Zero(n_, 2 * n_ + 2)), basic_(n_) {
+      : n_(problem.q.size()), entries_(RowMajorMatrix::Zero(n_, 2 * n_ + 2)), sizes_(problem.q.cwiseAbs()), basic_(n_) {
     for (Index i = 0; i < n_; ++i) {
       entries_(i, i) = 1.0;
       entries_.row(i).segment(n_, n_) = -problem.M.row(i);
@@ -65,9 +64,10 @@ class Tableau {
   }
 
   // The row whose basic variable first reaches 0 when `entering` grows; nothing if none does (a ray).
-  // Ties go to z0, else to the largest pivot: in floating point that loses less than a lexicographic rule.
+  // Values that differ by no more than their round-off tie. Ties go to z0, else to the largest pivot: in floating point
+  // that loses less than a lexicographic rule.
   std::optional<Index> blocking_row(Index entering, double pivot_tolerance) const {
-    constexpr double tie_tolerance = 1e-12;  // of values that start at 1: a few hundred rounding errors
+    constexpr double round_off = 1e-14;  // of the sizes of the terms summed so far: some 50 rounding errors
     const double smallest_pivot = pivot_tolerance * entries_.col(entering).cwiseAbs().maxCoeff();
     double step = 0.0;
     std::optional<Index> row;
@@ -80,10 +80,11 @@ class Tableau {
       }
     }
     if (!row) return row;
+    const double step_error = round_off * sizes_[*row] / entries_(*row, entering);
     for (Index i = 0; i < n_; ++i) {
       const double pivot = entries_(i, entering);
       if (pivot <= smallest_pivot) continue;
-      if (std::max(entries_(i, values()), 0.0) > step * pivot + tie_tolerance) continue;
+      if (std::max(entries_(i, values()), 0.0) > (step + step_error) * pivot + round_off * sizes_[i]) continue;
       if (basic_[i] == z0()) return i;
       if (pivot > entries_(*row, entering)) row = i;
     }
@@ -92,10 +93,13 @@ class Tableau {
 
   // Makes `entering` basic in `row`; returns the variable that leaves.
   Index pivot(Index row, Index entering) {
+    sizes_[row] /= std::abs(entries_(row, entering));
     entries_.row(row) /= entries_(row, entering);
     for (Index i = 0; i < n_; ++i) {
       const double factor = entries_(i, entering);
-      if (i != row && factor != 0.0) entries_.row(i) -= factor * entries_.row(row);
+      if (i == row || factor == 0.0) continue;
+      entries_.row(i) -= factor * entries_.row(row);
+      sizes_[i] = std::max(sizes_[i], std::abs(factor) * sizes_[row]);
     }
     std::swap(basic_[row], entering);
     return entering;
@@ -122,6 +126,7 @@ class Tableau {
 
   Index n_;
   RowMajorMatrix entries_;
+  Eigen::VectorXd sizes_;     // of the terms that the values are sums of; their round-off is proportional to it
   std::vector<Index> basic_;  // the basic variable of each row
 };
 

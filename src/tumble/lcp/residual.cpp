@@ -42,19 +42,18 @@ LcpResidual residual(const LcpProblem& problem, std::span<const double> z) {
   }
   LcpResidual parts;
   for (std::size_t i = 0; i < n; ++i) {
-    double inverse_s = 0.0;
-    for (std::size_t j = 0; j < n; ++j) {
-      if (d[j] > 0.0) inverse_s = std::max(inverse_s, std::abs(problem(j, i)) / d[j]);
-    }
     const double relative_w = d[i] > 0.0 ? w[i] / d[i] : 0.0;
     parts.negative_w = std::max(parts.negative_w, -relative_w);
-    if (inverse_s == 0.0) {  // z_i reaches no row: harmless if positive
-      if (z[i] < 0.0) parts.negative_z = infinity;
-      continue;
+    double relative_z = 0.0;  // |z_i| / s_i
+    for (std::size_t j = 0; j < n; ++j) {
+      if (d[j] > 0.0) relative_z = std::max(relative_z, std::abs(problem(j, i) * z[i]) / d[j]);
     }
-    const double relative_z = z[i] * inverse_s;
-    parts.negative_z = std::max(parts.negative_z, -relative_z);
-    parts.complementarity = std::max(parts.complementarity, std::min(relative_w, relative_z));
+    if (z[i] < 0.0) {
+      // A negative z_i that reaches no row is not a matter of round-off.
+      parts.negative_z = std::max(parts.negative_z, relative_z > 0.0 ? relative_z : infinity);
+    } else {
+      parts.complementarity = std::max(parts.complementarity, std::min(relative_w, relative_z));
+    }
   }
   return parts;
 }

@@ -1,0 +1,226 @@
+"""tumble.drop: the document's functions from Python."""
+
+import copy
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tumble import NoSolution, drop
+from tumble.drop import Parameters
+
+Q0 = np.array([0.0, 1.5, np.deg2rad(30.0)])
+V0 = np.array([0.0, -0.2, 0.0])
+
+
+def test_shapes_and_types_are_the_documents() -> None:
+    J, phi = drop.get_contacts(Q0)
+    V, p = drop.form_lcp(J, V0)
+    f_c = drop.solve_LCP(V, p)
+    q1, v1 = drop.step(Q0, V0)
+    q, v = drop.simulate(Q0, V0)
+    assert isinstance(phi, float)
+    for array, shape in [(J, (3, 2)), (V, (4, 4)), (p, (4,)), (f_c, (3,)), (q1, (3,)), (v1, (3,)), (q, (3, 150)), (v, (3, 150))]:
+        assert array.shape == shape and array.dtype == np.float64
+    assert np.array_equal(J[:, 0], [1.0, 0.0, J[2, 0]]) and np.array_equal(J[:, 1], [0.0, 1.0, J[2, 1]])
+    assert np.array_equal(q[:, 0], Q0) and np.array_equal(q[:, 1], q1) and np.array_equal(v[:, 1], v1)
+
+
+def test_functions_put_together_by_hand_give_the_step() -> None:
+    """Part 3 written with numpy from parts 1 and 2, at every column in contact."""
+    params = Parameters(l=0.4, mu=0.5)
+    inverse_M = np.diag([1 / params.m, 1 / params.m, 6 / (params.m * params.l**2)])
+    q, v = drop.simulate(Q0, V0, params=params)
+    contacts = 0
+    for k in range(149):
+        J, phi = drop.get_contacts(q[:, k], params=params)
+        if phi >= params.delta:
+            continue
+        contacts += 1
+        f_n, f_t1, f_t2 = drop.solve_LCP(*drop.form_lcp(J, v[:, k], params=params))
+        force = np.array([0, -params.m * params.g, 0]) + J[:, 1] * f_n - J[:, 0] * f_t1 + J[:, 0] * f_t2
+        expected = v[:, k] + params.dt * inverse_M @ force
+        np.testing.assert_allclose(v[:, k + 1], expected, atol=1e-13)  # speeds up to 20, a few roundings
+        np.testing.assert_allclose(q[:, k + 1], q[:, k] + params.dt * expected + [0, params.delta, 0], atol=1e-13)
+    assert contacts > 3
+
+
+@pytest.mark.parametrize("kind", [list, tuple, np.float32, np.int64, np.float16, "strided", "reversed", "readonly", "big-endian"])
+def test_any_real_array_is_taken_and_none_is_changed_or_kept(kind) -> None:
+    whole = np.array([1.0, 2.0, 3.0])
+    if kind in (list, tuple):
+        argument = kind(whole)
+    elif kind == "strided":
+        argument = np.array([1.0, 0, 2.0, 0, 3.0, 0])[::2]
+    elif kind == "reversed":
+        argument = np.array([3.0, 2.0, 1.0])[::-1]
+    elif kind == "readonly":
+        argument = whole.copy()
+        argument.setflags(write=False)
+    elif kind == "big-endian":
+        argument = whole.astype(">f8")
+    else:
+        argument = whole.astype(kind)
+    before = copy.copy(argument)
+    q1, v1 = drop.step(argument, argument)
+    assert np.array_equal(q1, drop.step(whole, whole)[0]) and np.array_equal(v1, drop.step(whole, whole)[1])
+    assert np.array_equal(argument, before)
+    q, v = drop.simulate(argument, argument)
+    q[:] = v[:] = 7.0  # results are the caller's own
+    assert np.array_equal(drop.simulate(whole, whole)[0][:, 0], whole)
+
+
+def test_a_matrix_may_be_in_any_order() -> None:
+    J, _ = drop.get_contacts(Q0)
+    V, p = drop.form_lcp(J, [1.0, -2.0, 0.5])
+    V2, p2 = drop.form_lcp(np.asfortranarray(J), [1.0, -2.0, 0.5])
+    assert np.array_equal(V, V2) and np.array_equal(p, p2)
+    assert np.array_equal(drop.solve_LCP(V, p), drop.solve_LCP(np.asfortranarray(V), p))
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: drop.get_contacts([1.0, 2.0]), r"q: must have shape \(3,\), got \(2,\)"),
+        (lambda: drop.get_contacts([[1.0], [2.0], [3.0]]), r"q: must have shape \(3,\), got \(3, 1\)"),
+        (lambda: drop.get_contacts([]), r"q: must have shape \(3,\), got \(0,\)"),
+        (lambda: drop.get_contacts(None), "q: must be an array of real numbers"),
+        (lambda: drop.get_contacts("abc"), "q: must be an array of real numbers"),
+        (lambda: drop.get_contacts([1j, 0, 0]), "complex"),
+        (lambda: drop.get_contacts([True, False, True]), "bool"),
+        (lambda: drop.get_contacts([[1], [2, 3]]), "q: must be an array of"),
+        (lambda: drop.get_contacts([0.0, np.nan, 0.0]), r"q\[1\]: must be finite, got nan"),
+        (lambda: drop.step(Q0, [0.0, 0.0, np.inf]), r"v\[2\]: must be finite, got inf"),
+        (lambda: drop.form_lcp(np.zeros((2, 3)), V0), r"J: must have shape \(3, 2\), got \(2, 3\)"),
+        (lambda: drop.form_lcp(np.full((3, 2), np.nan), V0), "J_t"),
+        (lambda: drop.solve_LCP(np.eye(3), np.zeros(4)), r"V: must have shape \(4, 4\), got \(3, 3\)"),
+        (lambda: drop.solve_LCP(np.eye(4), np.zeros(3)), r"p: must have shape \(4,\), got \(3,\)"),
+        (lambda: drop.solve_LCP(np.full((4, 4), np.nan), np.zeros(4)), r"M\[0\]\[0\]: must be finite"),
+        (lambda: drop.simulate(Q0, [0.0]), r"v0: must have shape \(3,\), got \(1,\)"),
+        (lambda: Parameters(l=0.0), "l: must be finite and > 0, got 0 m"),
+        (lambda: Parameters(eps=2.0), r"eps: must be in \[0, 1\], got 2"),
+        (lambda: Parameters(columns=0), r"columns: must be in \[1, 10000000\], got 0"),
+        (lambda: Parameters(mu=float("nan")), "mu: must be finite and >= 0, got nan"),
+    ],
+)
+def test_bad_input_is_a_value_error_that_names_it(call, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_unknown_parameters_are_refused() -> None:
+    with pytest.raises(TypeError):
+        Parameters(side=0.4)
+    with pytest.raises(TypeError):
+        Parameters(0.4)
+
+
+def test_parameters_are_values() -> None:
+    a = Parameters(l=0.4, mu=0.5)
+    assert a == Parameters(l=0.4, mu=0.5) and hash(a) == hash(Parameters(l=0.4, mu=0.5)) and a != Parameters()
+    assert a.l == 0.4 and a.columns == 150
+    assert eval(repr(a)) == a
+    assert pickle.loads(pickle.dumps(a)) == a and Parameters(**a.asdict()) == a
+    with pytest.raises(AttributeError):
+        a.l = 1.0
+
+
+def test_a_problem_without_solution_raises_with_its_status() -> None:
+    with pytest.raises(NoSolution, match="no_solution_proved"):
+        drop.solve_LCP(-np.eye(4), [-1.0, 0.0, 0.0, 0.0])
+    assert issubclass(NoSolution, RuntimeError)
+
+
+def test_a_run_beyond_double_raises_and_says_where() -> None:
+    with pytest.raises(NoSolution, match="step 2 of 49"):
+        drop.simulate([0.0, 1.0, 0.0], [1e308, 0.0, 0.0], params=Parameters(dt=1.0, columns=50))
+    record = drop.record([0.0, 1.0, 0.0], [1e308, 0.0, 0.0], params=Parameters(dt=1.0, columns=50))
+    assert record.status == ["solved", "numerical"] and record.q.shape == (3, 2)
+
+
+def test_record_holds_what_happened() -> None:
+    record = drop.record(Q0, V0)
+    q, v = drop.simulate(Q0, V0)
+    assert np.array_equal(record.q, q) and np.array_equal(record.v, v)
+    assert np.array_equal(record.gap, [drop.get_contacts(q[:, k])[1] for k in range(150)])
+    assert set(record.mode) == {"open", "stick", "slip left", "slip right"}
+    touching = record.f_n > 0
+    assert np.array_equal(touching, [mode != "open" for mode in record.mode])
+    assert (np.abs(record.f_t2 - record.f_t1) <= 0.3 * record.f_n * (1 + 1e-15)).all()
+    assert (record.residual < 1e-14).all() and set(record.status) == {"solved"}
+    np.testing.assert_allclose(record.potential, 0.3 * 9.81 * q[1], rtol=1e-15)
+    np.testing.assert_allclose(record.kinetic, 0.15 * (v[0] ** 2 + v[1] ** 2) + 0.001 * v[2] ** 2, rtol=1e-14)
+    np.testing.assert_allclose(record.t, np.arange(150) * 0.01, rtol=1e-15)
+
+
+coordinate = st.floats(-3.0, 3.0)
+
+
+@given(st.tuples(coordinate, st.floats(-0.1, 1.0), st.floats(-20.0, 20.0)), st.tuples(coordinate, coordinate, st.floats(-20.0, 20.0)))
+@settings(max_examples=200, deadline=None, derandomize=True)
+def test_contact_forces_solve_the_lcp_of_the_document(q, v) -> None:
+    J, phi = drop.get_contacts(q)
+    V, p = drop.form_lcp(J, v)
+    f_n, f_t1, f_t2 = drop.solve_LCP(V, p)
+    slip = J[:, 0] @ np.array(v) + V[2, :3] @ [f_n, f_t1, f_t2]  # gravity has no part along x
+    z = np.array([f_n, f_t1, f_t2, abs(slip)])
+    w = V @ z + p
+    # forces up to 1e4 N from velocities up to 10 m/s, V about 0.1: round-off of 1e-14 in w
+    assert (z >= 0).all() and (w >= -1e-11).all() and (np.minimum(z / 1e3, w) <= 1e-11).all()
+
+
+def test_corner_positions_turn_with_the_square() -> None:
+    corners = drop.corner_positions([1.0, 2.0, np.pi / 2], params=Parameters(l=2.0))
+    np.testing.assert_allclose(corners, [[2, 1], [2, 3], [0, 3], [0, 1]], atol=1e-15)
+
+
+def test_simulate_runs_in_threads() -> None:
+    from concurrent.futures import ThreadPoolExecutor
+
+    expected = drop.simulate(Q0, V0)[0]
+    with ThreadPoolExecutor(4) as pool:
+        for q, _ in pool.map(lambda _: drop.simulate(Q0, V0), range(200)):
+            assert np.array_equal(q, expected)
+
+
+@pytest.mark.parametrize("module", ["tumble", "tumble.drop", "tumble.lcp"])
+def test_every_public_name_is_documented(module: str) -> None:
+    import importlib
+
+    loaded = importlib.import_module(module)
+    for name in loaded.__all__:
+        if name != "__version__" and name != "METHODS":
+            assert (getattr(loaded, name).__doc__ or "").strip(), f"{module}.{name} has no docstring"
+
+
+def test_docstring_examples_are_true() -> None:
+    import doctest
+
+    from tumble import lcp
+
+    for module in (drop, lcp):
+        outcome = doctest.testmod(module)
+        assert outcome.attempted > 0 and outcome.failed == 0
+
+
+def test_types_are_checked_by_mypy(tmp_path: Path) -> None:
+    root = Path(__file__).resolve().parents[2]
+    good = tmp_path / "good.py"
+    good.write_text("from tumble.drop import simulate, Parameters\nq, v = simulate([0, 1, 0], [0, 0, 0], params=Parameters(l=0.4))\n")
+    bad = tmp_path / "bad.py"
+    bad.write_text("from tumble.drop import Parameters\nParameters(side=0.4)\n")
+    command = [sys.executable, "-m", "mypy", "--config-file", str(root / "pyproject.toml"), "--cache-dir", str(tmp_path / "cache")]
+    environment = {"MYPYPATH": str(root / "bindings/python"), "PATH": "/usr/bin:/bin"}
+
+    def check(*arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([*command, *arguments], capture_output=True, text=True, env=environment, cwd=root)
+
+    package = check()
+    assert package.returncode == 0, package.stdout
+    assert check(str(good)).returncode == 0
+    wrong = check(str(bad))
+    assert wrong.returncode != 0 and "side" in wrong.stdout
