@@ -1,0 +1,69 @@
+// Files that appear under their name only when they are complete, and whole files read with a cap.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tumble::output {
+
+// The path for a message: one line, without bytes that a terminal would act on.
+std::string path_text(const std::filesystem::path& path);
+
+// A file under construction. The bytes go to a temporary name in the folder of the target; `commit` renames
+// it. Without `commit` nothing is left behind and an older file stays as it was. A symbolic link stays and
+// its target is replaced. What is not a regular file (/dev/null, /dev/stdout, a pipe) is written to directly.
+// Throws std::invalid_argument if the target exists and may not be overwritten or is a folder, and
+// std::system_error (a std::runtime_error) with path and reason for everything the system refuses.
+class OutputFile {
+ public:
+  OutputFile(const std::filesystem::path& path, bool overwrite);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(std::string_view bytes);
+  void commit();
+
+  // The file that holds the bytes until `commit`, for a program that writes them itself.
+  const std::filesystem::path& working_path() const { return working_path_; }
+
+ private:
+  void discard() noexcept;
+
+  std::filesystem::path path_;          // as given, for messages
+  std::filesystem::path target_;        // links followed
+  std::filesystem::path working_path_;  // equal to target_ if written to directly
+  bool overwrite_;
+  bool is_direct_ = false;
+  bool is_committed_ = false;
+  int descriptor_ = -1;
+};
+
+// Everything about the target that can be known without touching it. Throws std::invalid_argument.
+void check_target(const std::filesystem::path& path, bool overwrite);
+
+// True if the path exists, links followed, and is a device, a pipe or a socket, or a descriptor of this
+// process.
+bool is_direct_target(const std::filesystem::path& path);
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes, bool overwrite);
+
+// The whole file. Throws std::invalid_argument if it has more than `max_bytes`, std::system_error if it
+// cannot be read.
+std::string read_file(const std::filesystem::path& path, std::size_t max_bytes);
+
+// While it lives, a write of this thread to a closed pipe fails with EPIPE instead of ending the process.
+class SigpipeGuard {
+ public:
+  SigpipeGuard();
+  ~SigpipeGuard();
+  SigpipeGuard(const SigpipeGuard&) = delete;
+  SigpipeGuard& operator=(const SigpipeGuard&) = delete;
+
+ private:
+  bool must_unblock_ = false;
+};
+
+}  // namespace tumble::output

@@ -1,0 +1,38 @@
+// A record into a file, in the format that the ending of the name asks for.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tumble/drop/drop.hpp"
+
+namespace tumble::output {
+
+struct WriteOptions {
+  bool overwrite = false;
+  std::string format{};  // csv, npz, h5, gif, mp4, png or svg; empty: by the ending of the name
+  int width = 0;   // of a picture [px]; 0: chosen for the format, for png and svg by the shape of the path
+  int height = 0;  // [px]
+  double speed = 1.0;  // of an animation: seconds of the motion per second of the film, > 0
+};
+
+// What can be said before a simulation: format and sizes are allowed, the folder exists and is writable, no
+// file is in the way unless it may be overwritten, ffmpeg is there if it is needed. Throws
+// std::invalid_argument, and std::runtime_error for what this machine or this build lacks.
+void check_writable(const std::filesystem::path& path, const WriteOptions& options = {});
+
+// As above, and that an animation of so many columns is not too long.
+void check_writable(const std::filesystem::path& path, const WriteOptions& options,
+                    const drop::Parameters& parameters);
+
+// Writes all or nothing. Throws as check_writable, and std::runtime_error "path: reason" if the writing
+// itself fails.
+void write_record(const drop::Record& record, const std::filesystem::path& path,
+                  const WriteOptions& options = {});
+
+// Reads a .csv, .npz or .h5 file that write_record wrote, to the same bits; see parse_record_npz for files of
+// numpy. Throws std::invalid_argument with the place of the fault, std::system_error if the file cannot be
+// read.
+drop::Record read_record(const std::filesystem::path& path);
+
+}  // namespace tumble::output
