@@ -3,7 +3,6 @@
 
 #include "commands.hpp"
 #include "report.hpp"
-#include "tumble/output/read.hpp"
 #include "tumble/output/write.hpp"
 
 namespace tumble::cli {

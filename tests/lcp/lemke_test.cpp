@@ -75,6 +75,34 @@ TEST(Lemke, SolvesRowsOfVeryDifferentSizes) {
   }
 }
 
+// Entries of no consequence (1e-23, 1e-45) must not decide what counts as large.
+TEST(Lemke, IsNotMisledByTinyEntries) {
+  LcpProblem problem{std::vector<double>(25, 1.9757e-45), {0, 0, -1, -1, 0}, {}};
+  for (std::size_t k = 1; k < 5; ++k) problem.M[k] = problem.M[5 * k] = 9.9585e-24;
+  for (std::size_t k = 0; k < 5; ++k) problem.M[6 * k] = k == 0 ? 0.351 : 0.1;
+  const LcpResult result = lemke(problem);
+  EXPECT_EQ(result.status, LcpStatus::solved);
+  EXPECT_DOUBLE_EQ(result.z[2], 10);
+  EXPECT_DOUBLE_EQ(result.z[3], 10);
+  EXPECT_GT(residual(problem, std::vector<double>{0, 0, 0, 10, 0}).largest(), 0.4);
+}
+
+// Each row is 1e-8 times coupled to the one before: a scale that follows the coupling would grow without bound.
+TEST(Lemke, SolvesWeaklyCoupledChains) {
+  constexpr std::size_t n = 12;
+  LcpProblem problem{std::vector<double>(n * n, 0.0), std::vector<double>(n, -1.0), {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    problem.M[i * n + i] = 1.0;
+    if (i > 0) problem.M[i * n + i - 1] = 1e-8;
+  }
+  const LcpResult result = lemke(problem);
+  EXPECT_EQ(result.status, LcpStatus::solved);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(result.z[i], 1.0, 2e-8);
+  std::vector<double> wrong = result.z;
+  wrong[0] = 0.0;
+  EXPECT_GT(residual(problem, wrong).largest(), 0.1);
+}
+
 TEST(Lemke, ReturnsWAndBasisThatBelongToZ) {
   test::Random random(8);
   const LcpProblem problem = random_positive_definite(random, 10);

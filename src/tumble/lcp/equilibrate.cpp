@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -12,6 +14,92 @@ double rough_log2(double x) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);  // in [1/2, 1)
   return exponent + 2.0 * mantissa - 2.0;
+}
+
+// The logarithms of the entries that count; the others are marked by -infinity.
+class Logarithms {
+ public:
+  explicit Logarithms(const LcpProblem& problem) : n_(problem.size()), logs_(n_ * n_, k_none) {
+    for (std::size_t k = 0; k < n_ * n_; ++k) {
+      if (problem.M[k] != 0.0) logs_[k] = rough_log2(std::abs(problem.M[k]));
+    }
+  }
+
+  std::size_t size() const { return n_; }
+  bool counts(std::size_t i, std::size_t j) const { return logs_[i * n_ + j] != k_none; }
+  double operator()(std::size_t i, std::size_t j) const { return logs_[i * n_ + j]; }
+
+  void leave_out_tiny_entries(const std::vector<double>& x) {
+    constexpr double tiny = -40.0;
+    std::vector<double> row_largest(n_, k_none);
+    std::vector<double> column_largest(n_, k_none);
+    for (std::size_t i = 0; i < n_; ++i) {
+      for (std::size_t j = 0; j < n_; ++j) {
+        const double scaled = (*this)(i, j) + x[i] + x[j];
+        row_largest[i] = std::max(row_largest[i], scaled);
+        column_largest[j] = std::max(column_largest[j], scaled);
+      }
+    }
+    for (std::size_t i = 0; i < n_; ++i) {
+      for (std::size_t j = 0; j < n_; ++j) {
+        const double scaled = (*this)(i, j) + x[i] + x[j];
+        if (scaled < std::min(row_largest[i], column_largest[j]) + tiny) logs_[i * n_ + j] = k_none;
+      }
+    }
+  }
+
+ private:
+  static constexpr double k_none = -std::numeric_limits<double>::infinity();
+  std::size_t n_;
+  std::vector<double> logs_;
+};
+
+// A start that moves with the units: from the diagonal, or where it is 0 from neighbours that have one.
+std::vector<double> start_of_fit(const Logarithms& logs) {
+  const std::size_t n = logs.size();
+  std::vector<double> x(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (logs.counts(i, i)) x[i] = -0.5 * logs(i, i);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (logs.counts(i, i)) continue;
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!logs.counts(j, j) || !logs.counts(i, j)) continue;
+      sum += logs(i, j) + x[j];
+      ++count;
+    }
+    if (count > 0) x[i] = -sum / count;
+  }
+  return x;
+}
+
+// Gauss-Seidel on the normal equations of the fit; a few sweeps give the fraction of a bit that a rounded exponent needs.
+std::vector<double> fit_exponents(const Logarithms& logs) {
+  constexpr int num_sweeps = 10;
+  const std::size_t n = logs.size();
+  std::vector<double> x = start_of_fit(logs);
+  for (int sweep = 0; sweep < num_sweeps; ++sweep) {
+    for (std::size_t i = 0; i < n; ++i) {
+      double sum = 0.0;
+      int weight = 0;
+      for (std::size_t j = 0; j < n; ++j) {
+        if (i == j) continue;
+        for (const auto& [row, column] : {std::pair(i, j), std::pair(j, i)}) {
+          if (!logs.counts(row, column)) continue;
+          sum += logs(row, column) + x[j];
+          ++weight;
+        }
+      }
+      if (logs.counts(i, i)) {  // 2 (log + 2 x_i) in the derivative
+        sum += 2.0 * logs(i, i);
+        weight += 4;
+      }
+      if (weight > 0) x[i] = -sum / weight;
+    }
+  }
+  return x;
 }
 
 void find_blocks(const LcpProblem& problem, Equilibration& scales) {
@@ -36,38 +124,14 @@ void find_blocks(const LcpProblem& problem, Equilibration& scales) {
 }  // namespace
 
 Equilibration equilibrate(const LcpProblem& problem) {
-  // Alternating least squares. A dense matrix is done after one sweep; contact matrices settle to a fraction of a bit
-  // within ten, which is all that a scale rounded to a power of two can use.
-  constexpr int num_sweeps = 10;
-  const std::size_t n = problem.size();
-  std::vector<double> logs(n * n, 0.0);
-  for (std::size_t k = 0; k < n * n; ++k) {
-    if (problem.M[k] != 0.0) logs[k] = rough_log2(std::abs(problem.M[k]));
-  }
-  std::vector<double> row(n, 0.0);
-  std::vector<double> column(n, 0.0);
-  const auto fit = [&](std::vector<double>& unknown, const std::vector<double>& known, std::size_t own_stride,
-                       std::size_t other_stride) {
-    for (std::size_t i = 0; i < n; ++i) {
-      double sum = 0.0;
-      int count = 0;
-      for (std::size_t j = 0; j < n; ++j) {
-        const std::size_t k = i * own_stride + j * other_stride;
-        if (problem.M[k] == 0.0) continue;
-        sum += logs[k] + known[j];
-        ++count;
-      }
-      unknown[i] = count > 0 ? -sum / count : 0.0;
-    }
-  };
-  for (int sweep = 0; sweep < num_sweeps; ++sweep) {
-    fit(row, column, n, 1);
-    fit(column, row, 1, n);
-  }
-  Equilibration scales{std::vector<int>(n), std::vector<int>(n), {}, {}};
-  for (std::size_t i = 0; i < n; ++i) {
-    scales.row[i] = static_cast<int>(std::lround(row[i]));
-    scales.column[i] = static_cast<int>(std::lround(column[i]));
+  Logarithms logs(problem);
+  logs.leave_out_tiny_entries(fit_exponents(logs));
+  Equilibration scales;
+  const std::vector<double> x = fit_exponents(logs);
+  const int common = static_cast<int>(std::lround(2.0 * x[0]));  // an odd power of two that all entries share goes here
+  for (const double x_i : x) {
+    scales.column.push_back(static_cast<int>(std::lround(x_i - x[0])));
+    scales.row.push_back(scales.column.back() + common);
   }
   find_blocks(problem, scales);
   return scales;

@@ -27,15 +27,18 @@ struct ScaledProblem {
 ScaledProblem scale(const LcpProblem& problem) {
   const std::size_t n = problem.size();
   const Equilibration scales = equilibrate(problem);
-  std::vector<int> q_exponents(2 * n);  // per block
   const std::vector<double> sizes = block_sizes(problem, scales);
-  for (std::size_t block = 0; block < 2 * n; ++block) std::frexp(sizes[block], &q_exponents[block]);
-
+  std::vector<int> q_exponents(2 * n);  // per block; a block without q of its own is as large as the largest
+  for (std::size_t block = 0; block < 2 * n; ++block) {
+    const double size = sizes[block] > 0.0 ? sizes[block] : *std::max_element(sizes.begin(), sizes.end());
+    std::frexp(size, &q_exponents[block]);
+  }
   ScaledProblem scaled{RowMajorMatrix(n, n), Eigen::VectorXd(n), std::vector<int>(n)};
+  for (std::size_t j = 0; j < n; ++j) scaled.z_exponent[j] = scales.column[j] + q_exponents[scales.column_block[j]];
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) scaled.M(i, j) = std::ldexp(problem(i, j), scales.row[i] + scales.column[j]);
-    scaled.q[i] = std::ldexp(problem.q[i], scales.row[i] - q_exponents[scales.row_block[i]]);
-    scaled.z_exponent[i] = scales.column[i] + q_exponents[scales.column_block[i]];
+    const int w_exponent = scales.row[i] - q_exponents[scales.row_block[i]];
+    scaled.q[i] = std::ldexp(problem.q[i], w_exponent);
+    for (std::size_t j = 0; j < n; ++j) scaled.M(i, j) = std::ldexp(problem(i, j), w_exponent + scaled.z_exponent[j]);
   }
   return scaled;
 }
