@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace tumble {
 namespace {
@@ -16,88 +15,38 @@ double rough_log2(double x) {
   return exponent + 2.0 * mantissa - 2.0;
 }
 
-// The logarithms of the entries that count; the others are marked by -infinity.
-class Logarithms {
- public:
-  explicit Logarithms(const LcpProblem& problem) : n_(problem.size()), logs_(n_ * n_, k_none) {
-    for (std::size_t k = 0; k < n_ * n_; ++k) {
-      if (problem.M[k] != 0.0) logs_[k] = rough_log2(std::abs(problem.M[k]));
-    }
+// True if M_ii is a size to scale by: not 0, and not dwarfed by entries beside it (never so in a semidefinite matrix).
+bool has_diagonal(const LcpProblem& problem, std::size_t i) {
+  constexpr double dwarfed = 0x1p-40;
+  const double M_ii = std::abs(problem(i, i));
+  if (M_ii == 0.0) return false;
+  for (std::size_t j = 0; j < problem.size(); ++j) {
+    const double M_jj = std::abs(problem(j, j));
+    if (M_jj == 0.0) continue;
+    const double beside = std::sqrt(std::abs(problem(i, j))) * std::sqrt(std::abs(problem(j, i)));
+    if (std::sqrt(M_ii) * std::sqrt(M_jj) < dwarfed * beside) return false;
   }
-
-  std::size_t size() const { return n_; }
-  bool counts(std::size_t i, std::size_t j) const { return logs_[i * n_ + j] != k_none; }
-  double operator()(std::size_t i, std::size_t j) const { return logs_[i * n_ + j]; }
-
-  void leave_out_tiny_entries(const std::vector<double>& x) {
-    constexpr double tiny = -40.0;
-    std::vector<double> row_largest(n_, k_none);
-    std::vector<double> column_largest(n_, k_none);
-    for (std::size_t i = 0; i < n_; ++i) {
-      for (std::size_t j = 0; j < n_; ++j) {
-        const double scaled = (*this)(i, j) + x[i] + x[j];
-        row_largest[i] = std::max(row_largest[i], scaled);
-        column_largest[j] = std::max(column_largest[j], scaled);
-      }
-    }
-    for (std::size_t i = 0; i < n_; ++i) {
-      for (std::size_t j = 0; j < n_; ++j) {
-        const double scaled = (*this)(i, j) + x[i] + x[j];
-        if (scaled < std::min(row_largest[i], column_largest[j]) + tiny) logs_[i * n_ + j] = k_none;
-      }
-    }
-  }
-
- private:
-  static constexpr double k_none = -std::numeric_limits<double>::infinity();
-  std::size_t n_;
-  std::vector<double> logs_;
-};
-
-// A start that moves with the units: from the diagonal, or where it is 0 from neighbours that have one.
-std::vector<double> start_of_fit(const Logarithms& logs) {
-  const std::size_t n = logs.size();
-  std::vector<double> x(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (logs.counts(i, i)) x[i] = -0.5 * logs(i, i);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (logs.counts(i, i)) continue;
-    double sum = 0.0;
-    int count = 0;
-    for (std::size_t j = 0; j < n; ++j) {
-      if (!logs.counts(j, j) || !logs.counts(i, j)) continue;
-      sum += logs(i, j) + x[j];
-      ++count;
-    }
-    if (count > 0) x[i] = -sum / count;
-  }
-  return x;
+  return true;
 }
 
-// Gauss-Seidel on the normal equations of the fit; a few sweeps give the fraction of a bit that a rounded exponent needs.
-std::vector<double> fit_exponents(const Logarithms& logs) {
-  constexpr int num_sweeps = 10;
-  const std::size_t n = logs.size();
-  std::vector<double> x = start_of_fit(logs);
-  for (int sweep = 0; sweep < num_sweeps; ++sweep) {
-    for (std::size_t i = 0; i < n; ++i) {
-      double sum = 0.0;
-      int weight = 0;
-      for (std::size_t j = 0; j < n; ++j) {
-        if (i == j) continue;
-        for (const auto& [row, column] : {std::pair(i, j), std::pair(j, i)}) {
-          if (!logs.counts(row, column)) continue;
-          sum += logs(row, column) + x[j];
-          ++weight;
-        }
-      }
-      if (logs.counts(i, i)) {  // 2 (log + 2 x_i) in the derivative
-        sum += 2.0 * logs(i, i);
-        weight += 4;
-      }
-      if (weight > 0) x[i] = -sum / weight;
+// x with M_ij 2^(x_i + x_j) near 1 on the diagonal.
+std::vector<double> scaling_exponents(const LcpProblem& problem) {
+  const std::size_t n = problem.size();
+  std::vector<double> x(n, 0.0);
+  std::vector<bool> is_scaled(n, false);
+  for (std::size_t i = 0; i < n; ++i) {
+    is_scaled[i] = has_diagonal(problem, i);
+    if (is_scaled[i]) x[i] = -0.5 * rough_log2(std::abs(problem(i, i)));
+  }
+  const std::vector<bool> by_diagonal = is_scaled;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_scaled[i]) continue;
+    double largest = -std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < n; ++j) {
+      const double size = std::max(std::abs(problem(i, j)), std::abs(problem(j, i)));
+      if (by_diagonal[j] && size > 0.0) largest = std::max(largest, rough_log2(size) + x[j]);
     }
+    if (std::isfinite(largest)) x[i] = -largest;
   }
   return x;
 }
@@ -124,11 +73,9 @@ void find_blocks(const LcpProblem& problem, Equilibration& scales) {
 }  // namespace
 
 Equilibration equilibrate(const LcpProblem& problem) {
-  Logarithms logs(problem);
-  logs.leave_out_tiny_entries(fit_exponents(logs));
-  Equilibration scales;
-  const std::vector<double> x = fit_exponents(logs);
+  const std::vector<double> x = scaling_exponents(problem);
   const int common = static_cast<int>(std::lround(2.0 * x[0]));  // an odd power of two that all entries share goes here
+  Equilibration scales;
   for (const double x_i : x) {
     scales.column.push_back(static_cast<int>(std::lround(x_i - x[0])));
     scales.row.push_back(scales.column.back() + common);

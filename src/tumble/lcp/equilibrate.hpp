@@ -1,4 +1,4 @@
-// Scales, powers of two, that bring the entries of an LCP matrix near 1 without rounding any of them.
+// Scales, powers of two, that bring the diagonal of an LCP matrix near 1 without rounding any entry.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace tumble {
 
-// M_ij * 2^(row[i] + column[j]) has magnitude near 1 where the entry counts. row[i] - column[i] is the same for all i, so
-// that the products w_i z_i keep their relative sizes: in a problem of mechanics all of them bear one unit (a power, a
-// work), and this covers every change of the units of mass, length and time.
+// M_ij * 2^(row[i] + column[j]) has magnitude near 1 for i = j. row[i] - column[i] is the same for all i, so that the
+// products w_i z_i keep their relative sizes: in a problem of mechanics all of them bear one unit (a power, a work), and
+// this covers every change of the units of mass, length and time.
 struct Equilibration {
   std::vector<int> row;
   std::vector<int> column;
@@ -20,9 +20,8 @@ struct Equilibration {
   std::vector<std::size_t> column_block;
 };
 
-// Least squares fit of log2 |M_ij| + x_i + x_j to 0 over the entries that are not 0, rounded to integers; the geometric
-// scaling of [Fulkerson & Wolfe 1962], kept symmetric. Entries that come out below 2^-40 of the largest of
-// their row and of their column do not count; they are left out and the fit is made again.
+// Jacobi's scaling. A row without a diagonal entry (the friction cones of contacts) is scaled by its largest entry whose
+// partner is scaled already. For a positive semidefinite M no scaled entry exceeds 2.
 Equilibration equilibrate(const LcpProblem& problem);
 
 // The largest |q_k| 2^row[k] of each block (2 n values), the size of what is to be solved there.
