@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tumble/drop/drop.hpp"
+#include "tumble/output/write.hpp"
 
 namespace tumble::cli {
 
@@ -18,20 +19,24 @@ struct ReportOptions {
   bool quiet = false;  // nothing on standard output
 };
 
+// Where the results go. `pictures` holds width, height and speed, shared by all files of a run.
+struct OutputOptions {
+  std::vector<std::string> files;
+  output::WriteOptions pictures;
+};
+
 struct DropOptions {
   Vector3 q0 = {0.0, 1.5, 0.52359877559829887};  // the course's start: 30 degrees
   Vector3 v0 = {0.0, -0.2, 0.0};
   drop::Parameters parameters;
-  std::vector<std::string> outputs;
-  bool force = false;
+  OutputOptions output;
   ReportOptions report;
 };
 int run_drop(const DropOptions& options);
 
 struct RenderOptions {
   std::string input;
-  std::vector<std::string> outputs;
-  bool force = false;
+  OutputOptions output;
   ReportOptions report;
 };
 int run_render(const RenderOptions& options);

@@ -17,9 +17,11 @@ namespace {
 // Parameters have the document's names in the library and words on the command line; errors show what was typed.
 const std::map<std::string, std::string> k_option_of_field = {
     {"l", "--side"},         {"m", "--mass"},  {"mu", "--friction"}, {"eps", "--restitution"}, {"dt", "--step"},
-    {"delta", "--delta"},    {"g", "--gravity"}, {"columns", "--steps + 1"}, {"m, l", "--mass, --side"}};
+    {"delta", "--delta"},    {"g", "--gravity"}, {"columns", "--steps + 1"}, {"m, l", "--mass, --side"},
+    {"width", "--width"},    {"height", "--height"}, {"speed", "--speed"}};
 
 std::string with_option_name(const std::string& message) {
+  if (message.ends_with("already exists")) return message + "; --force replaces it";
   const std::size_t colon = message.find(':');
   const auto found = k_option_of_field.find(message.substr(0, colon));
   return found == k_option_of_field.end() ? message : found->second + message.substr(colon);
@@ -30,16 +32,6 @@ void add_report_options(CLI::App& app, ReportOptions& report) {
   app.add_flag("--quiet", report.quiet, "Print nothing but errors");
 }
 
-void add_output_options(CLI::App& app, std::vector<std::string>& outputs, bool& force) {
-  app.add_option("-o,--output", outputs,
-                 "File to write; its ending picks the kind: .csv .npz .h5 (data), .png .svg (many poses in one picture), "
-                 ".gif .mp4 (animation in real time). May be given several times")
-      ->type_name("FILE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_flag("--force", force, "Replace files that exist");
-}
-
 // An option whose word goes through `parse`, so that every bad number gets the same kind of message.
 template <class T>
 void add_parsed(CLI::App& app, const std::string& name, T& target, T (*parse)(const std::string&, const std::string&),
@@ -48,6 +40,22 @@ void add_parsed(CLI::App& app, const std::string& name, T& target, T (*parse)(co
          name, [&target, parse, name](const std::string& word) { target = parse(name, word); }, description)
       ->default_str(default_text)
       ->type_name(type);
+}
+
+void add_output_options(CLI::App& app, OutputOptions& output) {
+  app.add_option("-o,--output", output.files,
+                 "File to write; its ending picks the kind: .csv .npz .h5 (data), .png .svg (many poses in one picture), "
+                 ".gif .mp4 (animation in real time). May be given several times")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("--force", output.pictures.overwrite, "Replace files that exist");
+  add_parsed(app, "--width", output.pictures.width, &whole_number, "Width of pictures [px], 160 to 4096", "by kind",
+             "COUNT");
+  add_parsed(app, "--height", output.pictures.height, &whole_number, "Height of pictures [px], 160 to 4096", "by kind",
+             "COUNT");
+  add_parsed(app, "--speed", output.pictures.speed, &number, "Pace of animations; 0.1 is slow motion, > 0", "1",
+             "NUMBER");
 }
 
 void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& command) {
@@ -80,7 +88,7 @@ void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& com
          "Number of steps; the trajectory has one column more")
       ->default_str("149")
       ->type_name("COUNT");
-  add_output_options(app, options.outputs, options.force);
+  add_output_options(app, options.output);
   add_report_options(app, options.report);
   app.callback([&] { command = [&] { return run_drop(options); }; });
 }
@@ -90,7 +98,7 @@ void add_render(CLI::App& program, RenderOptions& options, std::function<int()>&
   app.add_option("file", options.input, "Trajectory written by `tumble drop -o`: .csv .npz .h5")
       ->type_name("FILE")
       ->required();
-  add_output_options(app, options.outputs, options.force);
+  add_output_options(app, options.output);
   app.get_option("--output")->required();
   add_report_options(app, options.report);
   app.callback([&] { command = [&] { return run_render(options); }; });

@@ -3,21 +3,19 @@
 
 #include "commands.hpp"
 #include "report.hpp"
-#include "tumble/output/write.hpp"
 
 namespace tumble::cli {
 
 int run_render(const RenderOptions& options) {
-  const output::WriteOptions write_options{.overwrite = options.force};
-  for (const std::string& path : options.outputs) output::check_writable(path, write_options);
+  const auto& [files, pictures] = options.output;
+  for (const std::string& file : files) output::check_writable(file, pictures);
   const drop::Record record = output::read_record(options.input);
-  for (const std::string& path : options.outputs) output::write_record(record, path, write_options);
+  for (const std::string& file : files) output::write_record(record, file, pictures);
   if (options.report.quiet) return k_done;
   if (options.report.json) {
-    fmt::print("{}", drop_json(record, options.outputs));
+    fmt::print("{}", drop_json(record, files));
   } else {
-    fmt::print("read {}: {} columns; wrote {}\n", options.input, record.trajectory.columns,
-               fmt::join(options.outputs, ", "));
+    fmt::print("read {}: {} columns; wrote {}\n", options.input, record.trajectory.columns, fmt::join(files, ", "));
   }
   return k_done;
 }

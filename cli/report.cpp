@@ -39,7 +39,7 @@ std::vector<Impact> find_impacts(const drop::Record& record) {
 }
 
 std::string state_text(const Vector3& q, const Vector3& v) {
-  return fmt::format("x {:.4f} m, y {:.4f} m, angle {:.2f} deg; vx {:.4f} m/s, vy {:.4f} m/s, omega {:.4f} rad/s", q[0],
+  return fmt::format("x {:.6g} m, y {:.6g} m, angle {:.6g} deg; vx {:.6g} m/s, vy {:.6g} m/s, omega {:.6g} rad/s", q[0],
                      q[1], q[2] * (180.0 / std::numbers::pi), v[0], v[1], v[2]);
 }
 

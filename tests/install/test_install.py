@@ -10,7 +10,7 @@ import pytest
 from tumble import drop
 
 ROOT = Path(__file__).resolve().parents[2]
-BUILD = Path(os.environ.get("TUMBLE_BUILD", ROOT / "build"))
+BUILD = Path(os.environ.get("TUMBLE_BUILD", ROOT / "build")).resolve()
 CONSUMER = ROOT / "tests/install/consumer"
 COURSE_START = ([0.0, 1.5, 0.5235987755982988], [0.0, -0.2, 0.0])
 

@@ -1,6 +1,7 @@
 #include "tumble/lcp/one_contact.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -107,6 +108,7 @@ OneContactSolution solve_one_contact(const OneContact& contact) {
   const bool is_finite = solution.f_n + std::abs(solution.f_t) + solution.slip_speed <= 1e300;
   const bool is_solved = is_finite && solution.residual <= accepted_residual && contact.A_nn > 0.0;
   solution.status = is_solved ? LcpStatus::solved : LcpStatus::numerical;
+  if (!is_finite || std::isnan(solution.residual)) solution.residual = std::numeric_limits<double>::infinity();
   return solution;
 }
 

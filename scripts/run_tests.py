@@ -1,0 +1,52 @@
+"""Run all tests of a build: C++ by CTest, the rest by pytest. The last line is "N passed, N failed" (", N skipped").
+
+    python3 scripts/run_tests.py --build build
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDERS = ("tests/python", "tests/cli", "tests/install", "tests/determinism")
+
+
+def count(report: Path) -> tuple[int, int, int]:
+    """(passed, failed, skipped) of a JUnit file; one failure if there is none, since then the runner has died."""
+    if not report.exists():
+        return 0, 1, 0
+    cases = list(ElementTree.parse(report).getroot().iter("testcase"))
+    skipped = sum(case.find("skipped") is not None for case in cases)
+    failed = sum(case.find("failure") is not None or case.find("error") is not None for case in cases)
+    return len(cases) - failed - skipped, failed, skipped
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", type=Path, default=ROOT / "build")
+    build = parser.parse_args().build.resolve()
+    reports = [build / "ctest.xml", build / "pytest.xml"]
+    for report in reports:
+        report.unlink(missing_ok=True)
+    environment = {
+        **os.environ,
+        "TUMBLE_BUILD": str(build),
+        "PYTHONPATH": str(build / "python"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "MPLBACKEND": "Agg",
+    }
+    ctest = ["ctest", "--test-dir", str(build), "--output-on-failure", "-j", "2", "--output-junit", str(reports[0])]
+    pytest = [sys.executable, "-m", "pytest", "-q", f"--junit-xml={reports[1]}", *FOLDERS]
+    codes = [subprocess.run(command, cwd=ROOT, env=environment).returncode for command in (ctest, pytest)]
+    passed, failed, skipped = (sum(numbers) for numbers in zip(*(count(report) for report in reports)))
+    if any(codes) and failed == 0:
+        failed = 1  # a runner failed without a failed test: no tests found, or it could not start
+    print(f"{passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else ""))
+    return 0 if failed == 0 and passed > 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,248 @@
+"""The program `tumble` as a user meets it: output, files, errors, exit codes."""
+
+import csv
+import json
+import os
+import resource
+import subprocess
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from PIL import Image
+from tumble import drop
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = Path(os.environ.get("TUMBLE_BUILD", ROOT / "build")).resolve() / "bin/tumble"
+COURSE_START = ([0.0, 1.5, np.deg2rad(30.0)], [0.0, -0.2, 0.0])
+
+
+def tumble(*words: object, cwd: Path, stdin: str = "", **options: object) -> subprocess.CompletedProcess[str]:
+    command = [str(PROGRAM), *(str(word) for word in words)]
+    return subprocess.run(command, cwd=cwd, input=stdin, capture_output=True, text=True, timeout=120, **options)
+
+
+def succeed(*words: object, cwd: Path, stdin: str = "") -> str:
+    run = tumble(*words, cwd=cwd, stdin=stdin)
+    assert run.returncode == 0 and run.stderr == "", run.stderr
+    return run.stdout
+
+
+def refuse(*words: object, cwd: Path, stdin: str = "", code: int = 2) -> str:
+    """The error text of a call that must fail: one line on standard error, nothing on standard output."""
+    run = tumble(*words, cwd=cwd, stdin=stdin)
+    assert run.returncode == code, run.stdout + run.stderr
+    assert run.stdout == "" and run.stderr.count("\n") == 1 and run.stderr.startswith("tumble: "), run.stderr
+    return run.stderr
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    return list(csv.DictReader(lines))
+
+
+def test_drop_prints_each_impact_and_the_final_pose(tmp_path: Path) -> None:
+    text = succeed("drop", cwd=tmp_path)
+    record = drop.record(*COURSE_START)
+    touching = np.flatnonzero(record.f_n[:-1] > 0)
+    rows = [line.split() for line in text.splitlines() if line.strip().startswith(("0.", "1."))]
+    assert len(rows) == len(touching) > 3
+    for row, k in zip(rows, touching):
+        assert float(row[0]) == pytest.approx(k * 0.01)
+        assert float(row[-3]) == pytest.approx(record.f_n[k] * 0.01, abs=1e-5)
+        assert float(row[-2]) == pytest.approx((record.f_t2 - record.f_t1)[k] * 0.01, abs=1e-5)
+        lost = (record.kinetic + record.potential)[k] - (record.kinetic + record.potential)[k + 1]
+        assert float(row[-1]) == pytest.approx(lost, abs=1e-5)
+    assert "after 1.49 s: x 1.39497 m, y 0.140347 m" in text
+
+
+def test_json_is_complete_and_to_the_bit(tmp_path: Path) -> None:
+    report = json.loads(succeed("drop", "--json", "--side", "0.4", "--steps", "99", cwd=tmp_path))
+    params = drop.Parameters(l=0.4, columns=100)
+    q, v = drop.simulate(*COURSE_START, params=params)
+    assert report["parameters"] == params.asdict()
+    assert report["final"]["q"] == list(q[:, -1]) and report["final"]["v"] == list(v[:, -1])
+    assert report["status"] == "solved" and len(report["impacts"]) > 0
+
+
+def test_quiet_prints_nothing(tmp_path: Path) -> None:
+    assert succeed("drop", "--quiet", "-o", "a.csv", cwd=tmp_path) == ""
+    assert (tmp_path / "a.csv").exists()
+
+
+def test_angles_are_radians_or_degrees(tmp_path: Path) -> None:
+    by_degrees = json.loads(succeed("drop", "--json", "--q0", "0,1.5,30deg", "--v0", "0,0,90deg", cwd=tmp_path))
+    by_radians = json.loads(succeed("drop", "--json", "--q0=0,1.5,0.5235987755982988", "--v0=0,0,1.5707963267948966", cwd=tmp_path))
+    assert by_degrees["final"] == by_radians["final"]
+
+
+def test_every_parameter_reaches_the_simulation(tmp_path: Path) -> None:
+    words = "--side 0.3 --mass 0.7 --friction 0.6 --restitution 0.2 --step 0.005 --steps 200 --gravity 5 --delta 0.002"
+    report = json.loads(succeed("drop", "--json", *words.split(), "--q0", "1,0.5,-0.3", "--v0", "-1,0,4", cwd=tmp_path))
+    params = drop.Parameters(l=0.3, m=0.7, mu=0.6, eps=0.2, dt=0.005, columns=201, g=5.0, delta=0.002)
+    q, _ = drop.simulate([1, 0.5, -0.3], [-1, 0, 4], params=params)
+    assert report["final"]["q"] == list(q[:, -1])
+
+
+def test_csv_npz_and_h5_hold_the_record_to_the_bit(tmp_path: Path) -> None:
+    succeed("drop", "-o", "a.csv", "-o", "a.npz", "-o", "a.h5", cwd=tmp_path)
+    record = drop.record(*COURSE_START)
+    rows = rows_of(tmp_path / "a.csv")
+    for name, values in [("x [m]", record.q[0]), ("omega [rad/s]", record.v[2]), ("gap [m]", record.gap),
+                         ("f_n [N]", record.f_n), ("lambda [m/s]", record.slip_speed), ("kinetic [J]", record.kinetic)]:
+        assert [float(row[name]) for row in rows] == list(values)
+    assert [row["mode"] for row in rows] == record.mode
+    arrays = np.load(tmp_path / "a.npz")
+    assert np.array_equal(arrays["q"], record.q) and np.array_equal(arrays["v"], record.v)
+    with h5py.File(tmp_path / "a.h5") as file:
+        assert np.array_equal(file["q"][:], record.q) and np.array_equal(file["gap"][:], record.gap)
+
+
+def test_render_converts_without_loss(tmp_path: Path) -> None:
+    succeed("drop", "-o", "a.csv", cwd=tmp_path)
+    for source, target in [("a.csv", "b.npz"), ("b.npz", "c.h5"), ("c.h5", "d.csv")]:
+        succeed("render", source, "-o", target, cwd=tmp_path)
+    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "d.csv").read_bytes()
+
+
+def test_pictures_are_pictures(tmp_path: Path) -> None:
+    succeed("drop", "-o", "a.png", "-o", "a.svg", "-o", "a.gif", "-o", "a.mp4", cwd=tmp_path)
+    picture = Image.open(tmp_path / "a.png").convert("RGB")
+    assert picture.width > 600 and len(picture.getcolors(10**7) or []) > 50
+    assert (tmp_path / "a.svg").read_text().rstrip().endswith("</svg>")
+    film = Image.open(tmp_path / "a.gif")
+    durations = []
+    for frame in range(film.n_frames):
+        film.seek(frame)
+        durations.append(film.info["duration"])
+    assert min(durations) >= 20  # browsers slow shorter frames down
+    assert sum(durations[:-1]) == pytest.approx(1490, abs=20)  # real time, up to the hold on the last frame
+    probe = ["ffprobe", "-v", "error", "-show_entries", "format=duration", "-of", "csv=p=0", str(tmp_path / "a.mp4")]
+    seconds = float(subprocess.run(probe, check=True, capture_output=True, text=True).stdout)
+    assert 1.4 < seconds < 3.0
+
+
+def test_speed_stretches_the_animation(tmp_path: Path) -> None:
+    succeed("drop", "-o", "a.gif", cwd=tmp_path)
+    succeed("drop", "--speed", "0.5", "-o", "b.gif", cwd=tmp_path)
+    assert Image.open(tmp_path / "b.gif").n_frames > 1.8 * Image.open(tmp_path / "a.gif").n_frames
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--mass", "-1"], "--mass: must be finite and > 0, got -1 kg"),
+        (["--mass", "heavy"], "--mass: must be a finite number, got 'heavy'"),
+        (["--side", "nan"], "--side: must be a finite number, got 'nan'"),
+        (["--restitution", "1.1"], "--restitution: must be in [0, 1], got 1.1"),
+        (["--step", "0"], "--step: must be finite and > 0, got 0 s"),
+        (["--friction", "-0.1"], "--friction: must be finite and >= 0, got -0.1"),
+        (["--delta", "-1"], "--delta: must be finite and >= 0, got -1 m"),
+        (["--gravity", "inf"], "--gravity: must be a finite number, got 'inf'"),
+        (["--steps", "-1"], "--steps: must be in [0, 9999999], got -1"),
+        (["--steps", "10000000"], "--steps: must be in [0, 9999999], got 10000000"),
+        (["--steps", "1.5"], "--steps: must be a whole number, got '1.5'"),
+        (["--q0", "1,2"], "--q0: must be three numbers a,b,c"),
+        (["--q0", "1,2,3,4"], "--q0: must be three numbers a,b,c"),
+        (["--q0", "1,2,3grad"], "--q0: must be a finite angle like 0.5 (rad) or 30deg, got '3grad'"),
+        (["--v0", "1,inf,3"], "--v0: must be a finite number, got 'inf'"),
+        (["--colour", "red"], "--colour"),
+        (["-o", "a.bmp"], "a.bmp: the name must end in"),
+        (["-o", "a"], "a: the name must end in"),
+        (["-o", "missing/a.csv"], "missing"),
+        (["--speed", "0", "-o", "a.gif"], "--speed: must be finite and > 0, got 0"),
+        (["--width", "7", "-o", "a.png"], "--width: must be"),
+    ],
+)
+def test_bad_options_are_one_line_and_write_nothing(tmp_path: Path, words: list[str], message: str) -> None:
+    assert message in refuse("drop", *words, cwd=tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_command_is_needed_and_help_is_everywhere(tmp_path: Path) -> None:
+    refuse(cwd=tmp_path)
+    refuse("fly", cwd=tmp_path)
+    assert succeed("--version", cwd=tmp_path).startswith("tumble 0.")
+    for words in (["--help"], ["drop", "--help"], ["render", "--help"], ["lcp", "--help"]):
+        assert "Usage" in succeed(*words, cwd=tmp_path)
+
+
+def test_existing_files_are_replaced_only_by_force(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("precious")
+    assert "already exists; --force" in refuse("drop", "-o", "b.csv", "-o", "a.csv", cwd=tmp_path)
+    assert (tmp_path / "a.csv").read_text() == "precious" and not (tmp_path / "b.csv").exists()
+    succeed("drop", "--force", "-o", "a.csv", cwd=tmp_path)
+    assert (tmp_path / "a.csv").read_text().startswith("# tumble drop 1")
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.npz", "a.h5", "a.png", "a.svg", "a.gif", "a.mp4"])
+def test_a_disk_that_fills_up_costs_nothing(tmp_path: Path, name: str) -> None:
+    """A limit on the file size stands for the full disk: the write fails halfway."""
+    (tmp_path / name).write_text("precious")
+
+    def small_files() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+    run = tumble("drop", "--force", "-o", name, cwd=tmp_path, preexec_fn=small_files)
+    assert run.returncode != 0
+    assert (tmp_path / name).read_text() == "precious"
+
+
+def test_output_that_cannot_be_printed_is_an_error(tmp_path: Path) -> None:
+    with open("/dev/full", "w") as full:
+        run = subprocess.run([str(PROGRAM), "drop"], stdout=full, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
+    assert run.returncode == 2 and "could not be written" in run.stderr
+
+
+@pytest.mark.parametrize("ending", [".csv", ".npz", ".h5"])
+def test_truncated_and_foreign_files_are_refused_by_name(tmp_path: Path, ending: str) -> None:
+    good = tmp_path / f"good{ending}"
+    succeed("drop", "-o", good, cwd=tmp_path)
+    bad = tmp_path / f"bad{ending}"
+    for content in (b"", b"hello\n", good.read_bytes()[:-100], good.read_bytes()[: good.stat().st_size // 2]):
+        bad.write_bytes(content)
+        assert f"bad{ending}" in refuse("render", bad, "-o", "out.png", cwd=tmp_path)
+    assert not (tmp_path / "out.png").exists()
+    refuse("render", "nowhere" + ending, "-o", "out.png", cwd=tmp_path)
+
+
+def test_a_run_beyond_double_is_a_numerical_failure(tmp_path: Path) -> None:
+    run = tumble("drop", "--v0", "1e308,0,0", "--step", "1", cwd=tmp_path)
+    assert run.returncode == 3 and "step 2 of 149" in run.stdout and "nan" not in run.stdout
+
+
+def test_lcp_solves_text(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("# example\nM\n2 1\n1 2\nq\n-5 -6\n")
+    text = succeed("lcp", "a.txt", cwd=tmp_path)
+    assert "status    solved" in text and "z         1.333333333333333" in text and "pivots" in text and "residual" in text
+    report = json.loads(succeed("lcp", "-", "--json", "--method", "enumerate", cwd=tmp_path, stdin="M\n1\nq\n-1/4\n"))
+    assert report["z"] == [0.25] and report["w"] == [0.0] and report["status"] == "solved"
+
+
+def test_lcp_lists_all_solutions(tmp_path: Path) -> None:
+    report = json.loads(succeed("lcp", "-", "--all", "--json", cwd=tmp_path, stdin="M\n-2 -1\n-1 -2\nq\n1 1\n"))
+    assert report["n"] == 2 and len(report["solutions"]) == 4
+    assert "4 vertex solutions" in succeed("lcp", "-", "--all", cwd=tmp_path, stdin="M\n-2 -1\n-1 -2\nq\n1 1\n")
+
+
+def test_lcp_without_solution_exits_with_3(tmp_path: Path) -> None:
+    run = tumble("lcp", "-", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
+    assert run.returncode == 3 and "ray_unproven" in run.stdout
+    run = tumble("lcp", "-", "--method", "enumerate", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
+    assert run.returncode == 3 and "no_solution_proved" in run.stdout
+    assert tumble("lcp", "-", "--all", cwd=tmp_path, stdin="M\n-1\nq\n-1\n").returncode == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "standard input:1:1: empty"),
+        ("M\n1 2\n3\nq\n1 1\n", "standard input:3:1: M: row 2 must have 2 entries"),
+        ("M\n1\nq\nx\n", "standard input:4:1: expected a number"),
+        ("M\nnan\nq\n1\n", "standard input:2:1: must be finite"),
+    ],
+)
+def test_lcp_refuses_bad_text_with_its_place(tmp_path: Path, text: str, message: str) -> None:
+    assert message in refuse("lcp", "-", cwd=tmp_path, stdin=text)
+    assert "at most 12" in refuse("lcp", "-", "--all", cwd=tmp_path, stdin="M\n" + ("0 " * 13 + "\n") * 13 + "q\n" + "1 " * 13)
