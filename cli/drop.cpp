@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include "commands.hpp"
 #include "report.hpp"
+#include <fmt/format.h>
 
 namespace tumble::cli {
 

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include "commands.hpp"
 #include "report.hpp"
+#include <fmt/format.h>
+
 #include "tumble/lcp/problem_text.hpp"
 #include "tumble/lcp/solve.hpp"
 #include "tumble/output/file.hpp"
@@ -21,8 +21,8 @@ int run_lcp(const LcpOptions& options) {
     results.push_back(solve_lcp(problem, settings));
   }
   if (!options.report.quiet) {
-    fmt::print("{}", options.report.json ? lcp_json(problem, results, options.all)
-                                         : lcp_text(problem, results, options.all));
+    fmt::print("{}",
+               options.report.json ? lcp_json(problem, results, options.all) : lcp_text(problem, results, options.all));
   }
   const bool is_solved = !results.empty() && results.front().status == LcpStatus::solved;
   return is_solved ? k_done : k_numerical_failure;

@@ -1,24 +1,34 @@
-// The program `tumble`. CLI11 is included here and nowhere else: it takes longer to compile than the rest together.
+// The program `tumble`. CLI11 is included here and nowhere else: it takes longer to compile than the rest
+// together.
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <map>
 #include <string>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include "commands.hpp"
 #include "text.hpp"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace tumble::cli {
 namespace {
 
-// Parameters have the document's names in the library and words on the command line; errors show what was typed.
-const std::map<std::string, std::string> k_option_of_field = {
-    {"l", "--side"},         {"m", "--mass"},  {"mu", "--friction"}, {"eps", "--restitution"}, {"dt", "--step"},
-    {"delta", "--delta"},    {"g", "--gravity"}, {"columns", "--steps + 1"}, {"m, l", "--mass, --side"},
-    {"width", "--width"},    {"height", "--height"}, {"speed", "--speed"}};
+// Parameters have the document's names in the library and words on the command line; errors show what was
+// typed.
+const std::map<std::string, std::string> k_option_of_field = {{"l", "--side"},
+                                                              {"m", "--mass"},
+                                                              {"mu", "--friction"},
+                                                              {"eps", "--restitution"},
+                                                              {"dt", "--step"},
+                                                              {"delta", "--delta"},
+                                                              {"g", "--gravity"},
+                                                              {"columns", "--steps + 1"},
+                                                              {"m, l", "--mass, --side"},
+                                                              {"width", "--width"},
+                                                              {"height", "--height"},
+                                                              {"speed", "--speed"},
+                                                              {"format", "--format"}};
 
 std::string with_option_name(const std::string& message) {
   if (message.ends_with("already exists")) return message + "; --force replaces it";
@@ -44,11 +54,15 @@ void add_parsed(CLI::App& app, const std::string& name, T& target, T (*parse)(co
 
 void add_output_options(CLI::App& app, OutputOptions& output) {
   app.add_option("-o,--output", output.files,
-                 "File to write; its ending picks the kind: .csv .npz .h5 (data), .png .svg (many poses in one picture), "
+                 "File to write; its ending picks the kind: .csv .npz .h5 (data), .png .svg (many poses in "
+                 "one picture), "
                  ".gif .mp4 (animation in real time). May be given several times")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--format", output.pictures.format,
+                 "Kind of the files, whatever their endings: csv, npz, h5, png, svg, gif, mp4")
+      ->type_name("NAME");
   app.add_flag("--force", output.pictures.overwrite, "Replace files that exist");
   add_parsed(app, "--width", output.pictures.width, &whole_number, "Width of pictures [px], 160 to 4096", "by kind",
              "COUNT");
@@ -66,8 +80,8 @@ void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& com
   };
   add_parsed(app, "--q0", options.q0, &planar_triple, "Start: centre of mass [m] and angle [rad, or with ending deg]",
              "0,1.5,30deg", "X,Y,THETA");
-  add_parsed(app, "--v0", options.v0, &planar_triple, "Start: velocity [m/s] and angular velocity [rad/s, or with ending deg]",
-             "0,-0.2,0", "VX,VY,OMEGA");
+  add_parsed(app, "--v0", options.v0, &planar_triple,
+             "Start: velocity [m/s] and angular velocity [rad/s, or with ending deg]", "0,-0.2,0", "VX,VY,OMEGA");
   add("--side", p.l, "Side of the square [m], > 0");
   add("--mass", p.m, "Mass [kg], > 0");
   add("--friction", p.mu, "Coefficient of friction, >= 0");
@@ -105,7 +119,8 @@ void add_render(CLI::App& program, RenderOptions& options, std::function<int()>&
 }
 
 void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& command) {
-  CLI::App& app = *program.add_subcommand("lcp", "Solve a linear complementarity problem: w = M z + q >= 0, z >= 0, w.z = 0");
+  CLI::App& app =
+      *program.add_subcommand("lcp", "Solve a linear complementarity problem: w = M z + q >= 0, z >= 0, w.z = 0");
   app.add_option("file", options.input,
                  "Text: a line 'M', the rows of M, a line 'q', the entries of q; numbers as 1e-3 or 1/3, comments "
                  "behind '#'. '-' reads standard input")
@@ -129,7 +144,9 @@ int run(int argc, char** argv) {
   CLI::App program("Tumble: rigid bodies in the plane under frictional contact.", "tumble");
   program.set_version_flag("--version", std::string("tumble ") + TUMBLE_VERSION);
   program.require_subcommand(1);
-  program.footer("Exit codes: 0 done, 2 bad input, 3 numerical failure or no solution.\n`tumble COMMAND --help` tells more.");
+  program.footer(
+      "Exit codes: 0 done, 2 bad input, 3 numerical failure or no solution.\n`tumble COMMAND --help` tells "
+      "more.");
 
   DropOptions drop_options;
   RenderOptions render_options;

@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "commands.hpp"
 #include "report.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tumble::cli {
 

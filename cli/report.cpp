@@ -33,7 +33,8 @@ std::vector<Impact> find_impacts(const drop::Record& record) {
   for (int k = 0; k + 1 < record.trajectory.columns; ++k) {
     const Vector4& z = record.steps[static_cast<std::size_t>(k)].z;
     if (z[0] <= 0.0) continue;
-    impacts.push_back({k, z[0] * dt, (z[2] - z[1]) * dt, mechanical_energy(record, k) - mechanical_energy(record, k + 1)});
+    impacts.push_back(
+        {k, z[0] * dt, (z[2] - z[1]) * dt, mechanical_energy(record, k) - mechanical_energy(record, k + 1)});
   }
   return impacts;
 }
@@ -79,9 +80,9 @@ std::string drop_text(const drop::Record& record, const std::vector<std::string>
   const drop::Parameters& p = record.parameters;
   const drop::Trajectory& trajectory = record.trajectory;
   const int last = trajectory.columns - 1;
-  std::string text = fmt::format(
-      "square of side {} m, mass {} kg, friction {}, restitution {}; {} steps of {} s\nstart: {}\n\n", p.l, p.m, p.mu,
-      p.eps, p.columns - 1, p.dt, state_text(trajectory.q_at(0), trajectory.v_at(0)));
+  std::string text =
+      fmt::format("square of side {} m, mass {} kg, friction {}, restitution {}; {} steps of {} s\nstart: {}\n\n", p.l,
+                  p.m, p.mu, p.eps, p.columns - 1, p.dt, state_text(trajectory.q_at(0), trajectory.v_at(0)));
   text += impact_table(record);
   if (trajectory.status != LcpStatus::solved) {
     text += fmt::format("\nstep {} of {} left the range of double arithmetic: status {}, residual {:.3g}\n", last + 1,
@@ -107,14 +108,24 @@ std::string drop_json(const drop::Record& record, const std::vector<std::string>
                        {"energy_lost", impact.energy_lost},
                        {"residual", step.residual}});
   }
-  const Json report = {
-      {"parameters",
-       {{"l", p.l}, {"m", p.m}, {"mu", p.mu}, {"eps", p.eps}, {"dt", p.dt}, {"delta", p.delta}, {"g", p.g}, {"columns", p.columns}}},
-      {"status", to_string(trajectory.status)},
-      {"start", {{"q", json_of(trajectory.q_at(0))}, {"v", json_of(trajectory.v_at(0))}}},
-      {"impacts", impacts},
-      {"final", {{"time", last * p.dt}, {"column", last}, {"q", json_of(trajectory.q_at(last))}, {"v", json_of(trajectory.v_at(last))}}},
-      {"files", files}};
+  const Json report = {{"parameters",
+                        {{"l", p.l},
+                         {"m", p.m},
+                         {"mu", p.mu},
+                         {"eps", p.eps},
+                         {"dt", p.dt},
+                         {"delta", p.delta},
+                         {"g", p.g},
+                         {"columns", p.columns}}},
+                       {"status", to_string(trajectory.status)},
+                       {"start", {{"q", json_of(trajectory.q_at(0))}, {"v", json_of(trajectory.v_at(0))}}},
+                       {"impacts", impacts},
+                       {"final",
+                        {{"time", last * p.dt},
+                         {"column", last},
+                         {"q", json_of(trajectory.q_at(last))},
+                         {"v", json_of(trajectory.v_at(last))}}},
+                       {"files", files}};
   return report.dump(2) + "\n";
 }
 

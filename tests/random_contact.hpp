@@ -49,8 +49,12 @@ inline OneContact random_contact(Random& random, double max_friction) {
   const double u_n = speed * random.uniform(-1.0, 0.4);
   const double u_t = speed * random.uniform(-1.0, 1.0);
   const double friction = random.uniform(0.0, 8.0) < 1.0 ? 0.0 : random.uniform(0.0, max_friction);
-  return {step * (1.0 / mass + r_x * r_x * inverse_inertia), -step * r_x * r_y * inverse_inertia,
-          step * (1.0 / mass + r_y * r_y * inverse_inertia), u_n, u_t, friction};
+  return {step * (1.0 / mass + r_x * r_x * inverse_inertia),
+          -step * r_x * r_y * inverse_inertia,
+          step * (1.0 / mass + r_y * r_y * inverse_inertia),
+          u_n,
+          u_t,
+          friction};
 }
 
 }  // namespace tumble::test

@@ -1,9 +1,9 @@
 // tumble._core: the document's drop model. Public face: tumble/drop.py.
 #include <string>
 
+#include "convert.hpp"
 #include <fmt/format.h>
 
-#include "convert.hpp"
 #include "tumble/drop/drop.hpp"
 
 namespace tumble::python {
@@ -107,18 +107,17 @@ py::dict simulate_with_record(const py::handle& q0, const py::handle& v0, const 
     potential.mutable_data()[k] = potential_energy(trajectory.q_at(k), parameters);
   }
   using Step = drop::StepRecord;
-  return py::dict(
-      "t"_a = t, "q"_a = to_numpy(trajectory.q, 3, columns), "v"_a = to_numpy(trajectory.v, 3, columns),
-      "gap"_a = collect<double>(record, [](const Step& s) { return s.gap; }),
-      "corner"_a = collect<int>(record, [](const Step& s) { return s.corner; }),
-      "f_n"_a = collect<double>(record, [](const Step& s) { return s.z[0]; }),
-      "f_t1"_a = collect<double>(record, [](const Step& s) { return s.z[1]; }),
-      "f_t2"_a = collect<double>(record, [](const Step& s) { return s.z[2]; }),
-      "slip_speed"_a = collect<double>(record, [](const Step& s) { return s.z[3]; }),
-      "mode"_a = collect_names(record, [](const Step& s) { return s.mode; }),
-      "status"_a = collect_names(record, [](const Step& s) { return s.status; }),
-      "residual"_a = collect<double>(record, [](const Step& s) { return s.residual; }), "kinetic"_a = kinetic,
-      "potential"_a = potential);
+  return py::dict("t"_a = t, "q"_a = to_numpy(trajectory.q, 3, columns), "v"_a = to_numpy(trajectory.v, 3, columns),
+                  "gap"_a = collect<double>(record, [](const Step& s) { return s.gap; }),
+                  "corner"_a = collect<int>(record, [](const Step& s) { return s.corner; }),
+                  "f_n"_a = collect<double>(record, [](const Step& s) { return s.z[0]; }),
+                  "f_t1"_a = collect<double>(record, [](const Step& s) { return s.z[1]; }),
+                  "f_t2"_a = collect<double>(record, [](const Step& s) { return s.z[2]; }),
+                  "slip_speed"_a = collect<double>(record, [](const Step& s) { return s.z[3]; }),
+                  "mode"_a = collect_names(record, [](const Step& s) { return s.mode; }),
+                  "status"_a = collect_names(record, [](const Step& s) { return s.status; }),
+                  "residual"_a = collect<double>(record, [](const Step& s) { return s.residual; }),
+                  "kinetic"_a = kinetic, "potential"_a = potential);
 }
 
 py::array_t<double> corner_positions(const py::handle& q, const Parameters& parameters) {
@@ -145,9 +144,10 @@ void bind_drop(py::module_& module) {
       .def_readonly("g", &Parameters::g)
       .def_readonly("columns", &Parameters::columns)
       .def("asdict", &as_dict)
-      .def("__eq__", [](const Parameters& a, const py::object& b) {
-        return py::isinstance<Parameters>(b) && a == b.cast<const Parameters&>();
-      })
+      .def("__eq__",
+           [](const Parameters& a, const py::object& b) {
+             return py::isinstance<Parameters>(b) && a == b.cast<const Parameters&>();
+           })
       .def("__hash__", [](const Parameters& p) { return py::hash(py::tuple(as_dict(p).attr("values")())); })
       .def("__repr__",
            [](const Parameters& p) {
@@ -155,9 +155,7 @@ void bind_drop(py::module_& module) {
                                 p.mu, p.eps, p.dt, p.delta, p.g, p.columns);
            })
       .def(py::pickle([](const Parameters& p) { return as_dict(p); },
-                      [](const py::dict& d) {
-                        return py::type::of<Parameters>()(**d).cast<Parameters>();
-                      }));
+                      [](const py::dict& d) { return py::type::of<Parameters>()(**d).cast<Parameters>(); }));
 
   module.def("get_contacts", &get_contacts, "q"_a, "params"_a);
   module.def("form_lcp", &form_lcp, "J"_a, "v"_a, "params"_a);

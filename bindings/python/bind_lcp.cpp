@@ -2,9 +2,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "convert.hpp"
 #include <fmt/format.h>
 
-#include "convert.hpp"
 #include "tumble/lcp/problem_text.hpp"
 #include "tumble/lcp/residual.hpp"
 #include "tumble/lcp/solve.hpp"

@@ -1,10 +1,10 @@
-// The extension module tumble._core. The public names, their docstrings and types are in the Python files beside it.
+// The extension module tumble._core. The public names, their docstrings and types are in the Python files
+// beside it.
 #include <algorithm>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "convert.hpp"
+#include <fmt/format.h>
 
 namespace tumble::python {
 namespace {
@@ -34,8 +34,8 @@ Array as_array(const py::handle& object, const char* name, const std::vector<py:
     const char kind = any.dtype().kind();
     const bool is_empty_list = any.size() == 0;
     if (kind != 'f' && kind != 'i' && kind != 'u' && !is_empty_list) {
-      throw std::invalid_argument(fmt::format("{}: must be an array of real numbers, got dtype {}", name,
-                                              std::string(py::str(any.dtype()))));
+      throw std::invalid_argument(
+          fmt::format("{}: must be an array of real numbers, got dtype {}", name, std::string(py::str(any.dtype()))));
     }
     array = Array::ensure(any);
     if (!array) {
@@ -47,7 +47,8 @@ Array as_array(const py::handle& object, const char* name, const std::vector<py:
                          std::equal(shape.begin(), shape.end(), array.shape(),
                                     [](py::ssize_t wanted, py::ssize_t got) { return wanted < 0 || wanted == got; });
   if (!has_shape) {
-    throw std::invalid_argument(fmt::format("{}: must have shape {}, got {}", name, shape_text(shape.data(), shape.size()),
+    throw std::invalid_argument(fmt::format("{}: must have shape {}, got {}", name,
+                                            shape_text(shape.data(), shape.size()),
                                             shape_text(array.shape(), static_cast<std::size_t>(array.ndim()))));
   }
   return array;
@@ -62,11 +63,15 @@ Vector3 as_vector3(const py::handle& object, const char* name) {
 std::vector<double> as_vector(const Array& array) { return {array.data(), array.data() + array.size()}; }
 
 py::array_t<double> to_numpy(std::span<const double> values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  py::array_t<double> array(static_cast<py::ssize_t>(values.size()));
+  std::copy(values.begin(), values.end(), array.mutable_data());
+  return array;
 }
 
 py::array_t<double> to_numpy(std::span<const double> values, py::ssize_t rows, py::ssize_t columns) {
-  return py::array_t<double>({rows, columns}, values.data());
+  py::array_t<double> array({rows, columns});
+  std::copy(values.begin(), values.end(), array.mutable_data());
+  return array;
 }
 
 }  // namespace tumble::python

@@ -1,10 +1,12 @@
-// Prints 64-bit hashes over the bits of reference runs: equal on every compiler, optimisation level and instruction set.
+// Prints 64-bit hashes over the bits of reference runs: equal on every compiler, optimisation level and instruction
+// set.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <span>
 
 #include "../random_contact.hpp"
+
 #include "tumble/drop/drop.hpp"
 #include "tumble/lcp/lemke.hpp"
 
@@ -59,7 +61,8 @@ std::uint64_t hash_of_lcps() {
   for (std::size_t i = 0; i < 200; ++i) {
     const std::size_t n = 2 + i % 30;
     tumble::LcpProblem problem;
-    for (std::size_t k = 0; k < n * n; ++k) problem.M.push_back(random.uniform(0.0, 1.0) + (k % (n + 1) == 0 ? 2.0 : 0.0));
+    for (std::size_t k = 0; k < n * n; ++k)
+      problem.M.push_back(random.uniform(0.0, 1.0) + (k % (n + 1) == 0 ? 2.0 : 0.0));
     for (std::size_t k = 0; k < n; ++k) problem.q.push_back(random.uniform(-1.0, 1.0));
     hash.add(lemke(problem).z);
   }

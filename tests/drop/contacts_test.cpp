@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "../random_contact.hpp"
 #include <gtest/gtest.h>
 
-#include "../random_contact.hpp"
 #include "tumble/drop/drop.hpp"
 
 namespace tumble::drop {

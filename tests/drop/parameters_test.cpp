@@ -25,7 +25,8 @@ std::string error_of(const Parameters& parameters) {
 
 TEST(Parameters, DefaultsAreTheDocuments) {
   const Parameters p;
-  EXPECT_EQ(p, (Parameters{.l = 0.2, .m = 0.3, .mu = 0.3, .eps = 0.5, .dt = 0.01, .delta = 0.001, .g = 9.81, .columns = 150}));
+  EXPECT_EQ(p, (Parameters{
+                   .l = 0.2, .m = 0.3, .mu = 0.3, .eps = 0.5, .dt = 0.01, .delta = 0.001, .g = 9.81, .columns = 150}));
   EXPECT_EQ(error_of(p), "");
   EXPECT_EQ(error_of({.l = 0.4}), "");
 }

@@ -81,8 +81,8 @@ TEST(ReferenceTrajectories, AreReproducedStepByStep) {
 }
 
 // How much a whole trajectory may differ: 1e-12, or what round-off in its first contacts grows to. Two of the reference
-// trajectories multiply a disturbance of one part in 1e15 more than a thousandfold; in 50-digit arithmetic the references
-// themselves are off by up to 1.0e-12.
+// trajectories multiply a disturbance of one part in 1e15 more than a thousandfold; in 50-digit arithmetic the
+// references themselves are off by up to 1.0e-12.
 TEST(ReferenceTrajectories, AreReproducedAsAWhole) {
   for (const Reference& reference : references()) {
     const State start = reference.state(0);
@@ -91,14 +91,15 @@ TEST(ReferenceTrajectories, AreReproducedAsAWhole) {
     for (const double disturbance : {1e-10, -1e-10}) {
       const Vector3 v0 = {start.v[0], start.v[1], start.v[2] + disturbance};
       const Trajectory disturbed = simulate(start.q, v0, reference.parameters);
-      growth = std::max(growth, distance({trajectory.q_at(149), trajectory.v_at(149)},
-                                         {disturbed.q_at(149), disturbed.v_at(149)}) / 1e-10);
+      growth = std::max(
+          growth,
+          distance({trajectory.q_at(149), trajectory.v_at(149)}, {disturbed.q_at(149), disturbed.v_at(149)}) / 1e-10);
     }
     const double tolerance = std::max(1e-12, 8e-15 * growth);  // 8e-15: one step's difference, see above
     double largest = 0.0;
     for (int k = 0; k < 150; ++k) {
-      largest = std::max(largest, distance({trajectory.q_at(k), trajectory.v_at(k)},
-                                           reference.state(static_cast<std::size_t>(k))));
+      largest = std::max(
+          largest, distance({trajectory.q_at(k), trajectory.v_at(k)}, reference.state(static_cast<std::size_t>(k))));
     }
     EXPECT_LE(largest, tolerance) << reference.name << ", growth " << growth;
   }

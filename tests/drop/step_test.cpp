@@ -3,9 +3,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "../random_contact.hpp"
 #include <gtest/gtest.h>
 
-#include "../random_contact.hpp"
 #include "tumble/drop/drop.hpp"
 #include "tumble/lcp/enumerate.hpp"
 
@@ -57,8 +57,7 @@ TEST(SolveLCP, SolvesContactsAndOtherProblems) {
   const Vector3 diagonal = solve_LCP({{{2, 0, 0, 0}, {0, 4, 0, 0}, {0, 0, 8, 0}, {0, 0, 0, 1}}}, {-2, 4, -2, 0});
   EXPECT_EQ(diagonal, (Vector3{1.0, 0.0, 0.25}));
   // A solution that Lemke ends on a ray for.
-  const Vector3 game =
-      solve_LCP({{{0, 0, 10, 30}, {0, 0, 20, 15}, {10, 30, 0, 0}, {20, 15, 0, 0}}}, {-1, -1, -1, -1});
+  const Vector3 game = solve_LCP({{{0, 0, 10, 30}, {0, 0, 20, 15}, {10, 30, 0, 0}, {20, 15, 0, 0}}}, {-1, -1, -1, -1});
   EXPECT_GT(game[0] + game[1], 0.01);
 }
 
@@ -139,8 +138,14 @@ TEST(Step, ReversesTheNormalVelocityOfTheCorner) {
     switch (record.mode) {
       case ContactMode::open: EXPECT_EQ(f_n, 0.0); break;
       case ContactMode::stick: EXPECT_NEAR(slip, 0.0, 1e-13); break;
-      case ContactMode::slip_left: EXPECT_LT(slip, 1e-13); EXPECT_NEAR(f_t, p.mu * f_n, 1e-12 * f_n); break;
-      case ContactMode::slip_right: EXPECT_GT(slip, -1e-13); EXPECT_NEAR(f_t, -p.mu * f_n, 1e-12 * f_n); break;
+      case ContactMode::slip_left:
+        EXPECT_LT(slip, 1e-13);
+        EXPECT_NEAR(f_t, p.mu * f_n, 1e-12 * f_n);
+        break;
+      case ContactMode::slip_right:
+        EXPECT_GT(slip, -1e-13);
+        EXPECT_NEAR(f_t, -p.mu * f_n, 1e-12 * f_n);
+        break;
     }
     // Momentum: the change is the impulse of gravity and contact.
     EXPECT_NEAR(p.m * (after.v[0] - before.v[0]), p.dt * f_t, 1e-14);
@@ -157,8 +162,8 @@ TEST(Step, ChangesTheEnergyByTheWorkOfTheImpulses) {
     const auto [after, record] = step_with_record(before.q, before.v, p);
     const Jacobian J = get_contacts(before.q, p).J;
     const double f_n = record.z[0], f_t = record.z[2] - record.z[1];
-    const double work = 0.5 * p.dt * (f_n * (dot(J.n, before.v) + dot(J.n, after.v)) +
-                                      f_t * (dot(J.t, before.v) + dot(J.t, after.v)));
+    const double work =
+        0.5 * p.dt * (f_n * (dot(J.n, before.v) + dot(J.n, after.v)) + f_t * (dot(J.t, before.v) + dot(J.t, after.v)));
     EXPECT_NEAR(kinetic_energy(after.v, p) - kinetic_energy(before.v, p), work, 1e-14);  // energies up to 3 J
   }
 }
@@ -170,12 +175,12 @@ TEST(Step, AgreesWithClosedFormImpacts) {
     Vector3 before, after;
   };
   const Impact impacts[] = {
-      {20, .3, .5, {0, -2, 0}, {0.75560496, 0.51868320, -8.05318660}},        // slip all the way
-      {20, .3, .5, {3, -2, 0}, {2.70993606, -0.26366394, -21.14308397}},      // stick
-      {20, .3, .5, {-1, -2, 0}, {-0.24439504, 0.51868320, -8.05318660}},      // slip all the way
-      {30, .5, .5, {.2, -2, 0}, {0.70245191, 0.81177858, -5.14230485}},       // stick
-      {45, .3, .5, {0, -2, 0}, {0, 1, 0}},                                    // no slip
-      {45, .3, .5, {1, -2, 0}, {0.75, 1, -5.30330086}},                       // stick
+      {20, .3, .5, {0, -2, 0}, {0.75560496, 0.51868320, -8.05318660}},    // slip all the way
+      {20, .3, .5, {3, -2, 0}, {2.70993606, -0.26366394, -21.14308397}},  // stick
+      {20, .3, .5, {-1, -2, 0}, {-0.24439504, 0.51868320, -8.05318660}},  // slip all the way
+      {30, .5, .5, {.2, -2, 0}, {0.70245191, 0.81177858, -5.14230485}},   // stick
+      {45, .3, .5, {0, -2, 0}, {0, 1, 0}},                                // no slip
+      {45, .3, .5, {1, -2, 0}, {0.75, 1, -5.30330086}},                   // stick
   };
   for (const Impact& impact : impacts) {
     const Parameters p{.mu = impact.mu, .eps = impact.eps, .g = 0.0};

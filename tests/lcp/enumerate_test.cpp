@@ -20,14 +20,14 @@ TEST(Enumerate, CompletesSingularBases) {
   const double nn = 1.0 + k, nm = 1.0 - k, tt = 1.0 + k, a = 6.0 * 0.5 * 0.5;
   // Rows: normal 1, normal 2, then +t and -t of each, then the two cones; A_nt = M^-1_theta (-+1/2)(1/2).
   const LcpProblem problem{{
-                               nn, nm, -a, a,  -a, a,  0, 0,   //
-                               nm, nn, a,  -a, a,  -a, 0, 0,   //
-                               -a, a,  tt, -tt, tt, -tt, 1, 0,  //
-                               a,  -a, -tt, tt, -tt, tt, 1, 0,  //
-                               -a, a,  tt, -tt, tt, -tt, 0, 1,  //
-                               a,  -a, -tt, tt, -tt, tt, 0, 1,  //
-                               .5, 0,  -1, -1, 0,  0,  0, 0,    //
-                               0,  .5, 0,  0,  -1, -1, 0, 0,
+                               nn, nm, -a,  a,   -a,  a,   0, 0,  //
+                               nm, nn, a,   -a,  a,   -a,  0, 0,  //
+                               -a, a,  tt,  -tt, tt,  -tt, 1, 0,  //
+                               a,  -a, -tt, tt,  -tt, tt,  1, 0,  //
+                               -a, a,  tt,  -tt, tt,  -tt, 0, 1,  //
+                               a,  -a, -tt, tt,  -tt, tt,  0, 1,  //
+                               .5, 0,  -1,  -1,  0,   0,   0, 0,  //
+                               0,  .5, 0,   0,   -1,  -1,  0, 0,
                            },
                            {-1, -1, 0, 0, 0, 0, 0, 0},
                            {}};

@@ -4,9 +4,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "../random_contact.hpp"
 #include <gtest/gtest.h>
 
-#include "../random_contact.hpp"
 #include "tumble/lcp/enumerate.hpp"
 #include "tumble/lcp/residual.hpp"
 

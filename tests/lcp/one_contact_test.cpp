@@ -2,9 +2,9 @@
 
 #include <limits>
 
+#include "../random_contact.hpp"
 #include <gtest/gtest.h>
 
-#include "../random_contact.hpp"
 #include "tumble/lcp/residual.hpp"
 
 namespace tumble {

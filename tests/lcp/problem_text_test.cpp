@@ -2,9 +2,8 @@
 
 #include <stdexcept>
 
-#include <gtest/gtest.h>
-
 #include "../random_contact.hpp"
+#include <gtest/gtest.h>
 
 namespace tumble {
 namespace {

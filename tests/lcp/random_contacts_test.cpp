@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../random_contact.hpp"
 #include <gtest/gtest.h>
 
-#include "../random_contact.hpp"
 #include "tumble/lcp/enumerate.hpp"
 #include "tumble/lcp/lemke.hpp"
 #include "tumble/lcp/one_contact.hpp"

@@ -4,9 +4,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "../random_contact.hpp"
 #include <gtest/gtest.h>
 
-#include "../random_contact.hpp"
 #include "tumble/lcp/one_contact.hpp"
 
 namespace tumble {
@@ -14,7 +14,9 @@ namespace {
 
 const LcpProblem k_problem{{2, 1, 1, 2}, {-5, -6}, {}};  // solution (4/3, 7/3)
 
-TEST(Residual, IsRoundOffAtTheSolution) { EXPECT_LT(residual(k_problem, std::vector{4 / 3., 7 / 3.}).largest(), 1e-15); }
+TEST(Residual, IsRoundOffAtTheSolution) {
+  EXPECT_LT(residual(k_problem, std::vector{4 / 3., 7 / 3.}).largest(), 1e-15);
+}
 
 TEST(Residual, NamesThePartThatIsViolated) {
   const LcpResidual short_of = residual(k_problem, std::vector{1.0, 2.0});

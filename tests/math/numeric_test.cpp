@@ -3,9 +3,8 @@
 #include <array>
 #include <limits>
 
-#include <gtest/gtest.h>
-
 #include "../random_contact.hpp"
+#include <gtest/gtest.h>
 
 namespace tumble {
 namespace {
@@ -29,7 +28,8 @@ TEST(ToText, ReadsBackToTheSameBits) {
     const double value = random.log_uniform(-300.0, 300.0);
     EXPECT_EQ(parse_number(to_text(value)), value);
   }
-  EXPECT_EQ(parse_number(to_text(std::numeric_limits<double>::denorm_min())), std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(parse_number(to_text(std::numeric_limits<double>::denorm_min())),
+            std::numeric_limits<double>::denorm_min());
 }
 
 TEST(AllFinite, SeesNanAndInfinity) {

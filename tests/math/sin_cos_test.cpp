@@ -3,9 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <gtest/gtest.h>
-
 #include "../random_contact.hpp"
+#include <gtest/gtest.h>
 
 namespace tumble {
 namespace {

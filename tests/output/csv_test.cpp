@@ -70,8 +70,7 @@ TEST(Csv, RowsInPiecesAreTheWhole) {
 TEST(Csv, RefusesEveryTruncation) {
   const std::string text = to_csv(test::course_record(4));
   for (std::size_t size = 0; size < text.size(); ++size) {
-    EXPECT_THROW(parse_record_csv(std::string_view(text).substr(0, size), "run.csv"), std::invalid_argument)
-        << size;
+    EXPECT_THROW(parse_record_csv(std::string_view(text).substr(0, size), "run.csv"), std::invalid_argument) << size;
   }
 }
 
@@ -97,26 +96,21 @@ TEST(Csv, RefusesWithThePlace) {
   const std::string text = to_csv(test::course_record(3));
   EXPECT_TRUE(has(refusal(""), "run.csv:1:1: "));
   EXPECT_TRUE(has(refusal("time,x,y\n1,2,3\n"), "run.csv:1:1: expected '# tumble drop 1', got 'time,x,y'"));
-  EXPECT_TRUE(has(refusal(replaced(text, "# mu = 0.3", "# mu = -1")),
-                  "run.csv:4:1: mu: must be finite and >= 0, got -1"));
   EXPECT_TRUE(
-      has(refusal(replaced(text, "# m = 0.3", "# m = x")), "run.csv:3:7: m: expected a number, got 'x'"));
-  EXPECT_TRUE(
-      has(refusal(replaced(text, "# l = 0.2 m", "# l = 0.2 cm")), "run.csv:2:1: expected '# l = VALUE m'"));
+      has(refusal(replaced(text, "# mu = 0.3", "# mu = -1")), "run.csv:4:1: mu: must be finite and >= 0, got -1"));
+  EXPECT_TRUE(has(refusal(replaced(text, "# m = 0.3", "# m = x")), "run.csv:3:7: m: expected a number, got 'x'"));
+  EXPECT_TRUE(has(refusal(replaced(text, "# l = 0.2 m", "# l = 0.2 cm")), "run.csv:2:1: expected '# l = VALUE m'"));
   EXPECT_TRUE(has(refusal(replaced(text, "\n1,", "\n2,")), "run.csv:14:1: k: must be 1, got '2'"));
-  EXPECT_TRUE(has(refusal(replaced(text, "\n1,0.01,", "\n1,0.02,")),
-                  "run.csv:14:3: t: must be k dt = 0.01, got '0.02'"));
+  EXPECT_TRUE(
+      has(refusal(replaced(text, "\n1,0.01,", "\n1,0.02,")), "run.csv:14:3: t: must be k dt = 0.01, got '0.02'"));
   EXPECT_TRUE(has(refusal(replaced(text, ",1.5,", ",nan,")), "run.csv:13:7: y: must be finite, got 'nan'"));
   EXPECT_TRUE(has(refusal(replaced(text, ",open,", ",shut,")),
                   "mode: must be one of open, stick, slip left, slip right, got 'shut'"));
   EXPECT_TRUE(has(refusal(replaced(text, "open,solved,0,", "open,solved,inf,")), "residual: must be finite"));
-  EXPECT_TRUE(
-      has(refusal(replaced(text, "\n0,0,", "\n0,0,0,")), "run.csv:13:1: expected 19 columns, got 20"));
-  EXPECT_TRUE(has(refusal(replaced(text, "\n0,0,0,1.5,", "\n0,0,1.5,")),
-                  "run.csv:13:1: expected 19 columns, got 18"));
+  EXPECT_TRUE(has(refusal(replaced(text, "\n0,0,", "\n0,0,0,")), "run.csv:13:1: expected 19 columns, got 20"));
+  EXPECT_TRUE(has(refusal(replaced(text, "\n0,0,0,1.5,", "\n0,0,1.5,")), "run.csv:13:1: expected 19 columns, got 18"));
   EXPECT_TRUE(has(refusal(text + "3\n"), "run.csv:16:1: expected the end of the file after 3 rows"));
-  EXPECT_TRUE(
-      has(refusal(replaced(text, "# rows = 3", "# rows = 4")), "rows: must be at most columns = 3, got 4"));
+  EXPECT_TRUE(has(refusal(replaced(text, "# rows = 3", "# rows = 4")), "rows: must be at most columns = 3, got 4"));
 }
 
 TEST(Csv, RefusesMoreRowsThanAllowedBeforeItAllocatesThem) {
@@ -125,8 +119,7 @@ TEST(Csv, RefusesMoreRowsThanAllowedBeforeItAllocatesThem) {
                   "columns: must be a whole number in [1, 10000000], got '10000001'"));
   const std::string large =
       replaced(replaced(text, "# columns = 3", "# columns = 10000000"), "# rows = 3", "# rows = 10000000");
-  EXPECT_TRUE(
-      has(refusal(large), "run.csv:10:1: rows: 10000000 rows are announced, but the file is too short"));
+  EXPECT_TRUE(has(refusal(large), "run.csv:10:1: rows: 10000000 rows are announced, but the file is too short"));
 }
 
 TEST(Csv, RefusesToWriteARecordThatDisagreesWithItself) {

@@ -21,9 +21,7 @@ using test::has;
 using test::message_of;
 using test::TemporaryFolder;
 
-std::string content(const fs::path& path) {
-  return read_file(path, 1 << 24);
-}
+std::string content(const fs::path& path) { return read_file(path, 1 << 24); }
 
 TEST(File, IsWrittenAndReadBack) {
   const TemporaryFolder folder;
@@ -93,8 +91,8 @@ TEST(File, AFullDiskLeavesTheOldFile) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{100'000, before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string text = message_of<std::runtime_error>(
-      [&] { write_file_atomically(folder / "a.csv", std::string(200'000, 'x'), true); });
+  const std::string text =
+      message_of<std::runtime_error>([&] { write_file_atomically(folder / "a.csv", std::string(200'000, 'x'), true); });
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_TRUE(has(text, "cannot write ") && has(text, "a.csv: File too large")) << text;
@@ -105,8 +103,7 @@ TEST(File, AFullDiskLeavesTheOldFile) {
 TEST(File, DevicesAreWrittenToDirectly) {
   EXPECT_NO_THROW(write_file_atomically("/dev/null", "x", false));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  const std::string text =
-      message_of<std::system_error>([] { write_file_atomically("/dev/full", "x", false); });
+  const std::string text = message_of<std::system_error>([] { write_file_atomically("/dev/full", "x", false); });
   EXPECT_EQ(text, "cannot write /dev/full: No space left on device");
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
@@ -176,8 +173,7 @@ TEST(File, ManyThreadsWriteWithoutDisturbingEachOther) {
   std::vector<std::thread> threads;
   for (int i = 0; i < 8; ++i) {
     threads.emplace_back([&, i] {
-      for (int k = 0; k < 20; ++k)
-        write_file_atomically(folder / "same.csv", std::string(10'000, char('a' + i)), true);
+      for (int k = 0; k < 20; ++k) write_file_atomically(folder / "same.csv", std::string(10'000, char('a' + i)), true);
     });
   }
   for (std::thread& thread : threads) thread.join();

@@ -18,9 +18,7 @@ std::string refusal(const std::string& bytes) {
   return message_of<std::invalid_argument>([&] { parse_record_npz(bytes, "run.npz"); });
 }
 
-std::filesystem::path data_folder() {
-  return std::filesystem::path(__FILE__).parent_path() / "data";
-}
+std::filesystem::path data_folder() { return std::filesystem::path(__FILE__).parent_path() / "data"; }
 
 TEST(Npz, ReadsBackTheSameBits) {
   for (const int columns : {1, 2, 150}) {
@@ -57,8 +55,7 @@ TEST(Npz, ReadsWhatNumpySavedAndCompletesIt) {
 TEST(Npz, RefusesEveryTruncation) {
   const std::string bytes = to_npz(test::course_record(2));
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_THROW(parse_record_npz(std::string_view(bytes).substr(0, size), "run.npz"), std::invalid_argument)
-        << size;
+    EXPECT_THROW(parse_record_npz(std::string_view(bytes).substr(0, size), "run.npz"), std::invalid_argument) << size;
   }
 }
 
@@ -101,31 +98,29 @@ std::string npy(const std::string& dictionary, std::size_t content_bytes) {
 TEST(Npz, NamesTheArrayAtFault) {
   EXPECT_EQ(refusal(with_entry("mu.npy", "", "")),
             "run.npz: mu: is missing; q, v, l, m, mu, eps, dt, delta and g are needed");
-  EXPECT_TRUE(has(refusal(with_entry("q.npy", "q.npy",
-                                     npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }", 48))),
-                  "run.npz: q: must have shape (3, 3), got (2, 3)"));
-  EXPECT_TRUE(has(refusal(with_entry("q.npy", "q.npy",
-                                     npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 0), }", 0))),
-                  "run.npz: q: must have 1 to 10000000 columns, got 0"));
-  EXPECT_TRUE(has(refusal(with_entry("l.npy", "l.npy",
-                                     npy("{'descr': '<f8', 'fortran_order': False, 'shape': (), }", 8))),
-                  "run.npz: l: must be finite and > 0, got 0 m"));
-  EXPECT_TRUE(has(
-      refusal(with_entry("l.npy", "l.npy", npy("{'descr': '|O', 'fortran_order': False, 'shape': (), }", 8))),
-      "run.npz: l: must hold"));
+  EXPECT_TRUE(
+      has(refusal(with_entry("q.npy", "q.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }", 48))),
+          "run.npz: q: must have shape (3, 3), got (2, 3)"));
+  EXPECT_TRUE(
+      has(refusal(with_entry("q.npy", "q.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 0), }", 0))),
+          "run.npz: q: must have 1 to 10000000 columns, got 0"));
+  EXPECT_TRUE(
+      has(refusal(with_entry("l.npy", "l.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (), }", 8))),
+          "run.npz: l: must be finite and > 0, got 0 m"));
+  EXPECT_TRUE(
+      has(refusal(with_entry("l.npy", "l.npy", npy("{'descr': '|O', 'fortran_order': False, 'shape': (), }", 8))),
+          "run.npz: l: must hold"));
   EXPECT_TRUE(has(refusal(with_entry("", "q.npy", "")), "run.npz: q: is there twice"));
   EXPECT_TRUE(has(refusal("hello"), "run.npz: is not a whole zip archive"));
 }
 
 TEST(Npz, RefusesSizesBeforeItAllocatesThem) {
-  EXPECT_TRUE(has(
-      refusal(with_entry("q.npy", "q.npy",
-                         npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 99999999999), }", 8))),
-      "q: is too large"));
+  EXPECT_TRUE(has(refusal(with_entry("q.npy", "q.npy",
+                                     npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 99999999999), }", 8))),
+                  "q: is too large"));
   EXPECT_TRUE(
-      has(refusal(with_entry(
-              "q.npy", "q.npy",
-              npy("{'descr': '<f8', 'fortran_order': False, 'shape': (4294967296, 4294967296), }", 8))),
+      has(refusal(with_entry("q.npy", "q.npy",
+                             npy("{'descr': '<f8', 'fortran_order': False, 'shape': (4294967296, 4294967296), }", 8))),
           "q: is too large"));
   // An entry that announces 300 MB, with nothing behind it.
   std::string bytes = to_npz(test::course_record(2));
@@ -142,8 +137,7 @@ TEST(Npz, RecomputesTheStepsWhereOneOfTheirArraysIsAbsent) {
 TEST(Zip, HoldsEmptyAndIncompressibleContent) {
   std::string noise;
   unsigned state = 1;
-  for (int i = 0; i < 100'000; ++i)
-    noise += static_cast<char>((state = state * 1664525u + 1013904223u) >> 24);
+  for (int i = 0; i < 100'000; ++i) noise += static_cast<char>((state = state * 1664525u + 1013904223u) >> 24);
   ZipWriter zip;
   zip.add("empty", "");
   zip.add("noise", noise);

@@ -13,9 +13,7 @@
 
 // fontconfig, behind cairo's text, keeps its tables until the end of the process; LeakSanitizer asks here.
 extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libfontconfig";
-}
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
 
 namespace tumble::output {
 namespace {
@@ -80,8 +78,7 @@ TEST(View, RefusesWhatNoPictureCanHold) {
 
 TEST(View, TicksAreFewAndDifferent) {
   for (const drop::Record& record : odd_records()) {
-    const View view =
-        fit_view(box_of(record), record.parameters.l, {70.0, 100.0, 400.0, 300.0}, {10.0, 10.0, 20.0});
+    const View view = fit_view(box_of(record), record.parameters.l, {70.0, 100.0, 400.0, 300.0}, {10.0, 10.0, 20.0});
     for (const Axis& axis : {axis_x(view, 6), axis_y(view, 6)}) {
       EXPECT_LE(axis.ticks.size(), 8u);
       EXPECT_GE(axis.ticks.size(), 2u);
@@ -167,8 +164,7 @@ TEST(Animation, ShowsRealTime) {
   EXPECT_EQ(count_frames(2, 1e-9, 1.0, 1000), 2);
   EXPECT_THROW(count_frames(150, 0.01, 0.0, 1000), std::invalid_argument);
   EXPECT_THROW(count_frames(150, 0.01, std::nan(""), 1000), std::invalid_argument);
-  const std::string text =
-      test::message_of<std::invalid_argument>([] { count_frames(10'000'000, 1e300, 1.0, 3000); });
+  const std::string text = test::message_of<std::invalid_argument>([] { count_frames(10'000'000, 1e300, 1.0, 3000); });
   EXPECT_TRUE(has(text, "animation: at most 60 s of film")) << text;
 }
 

@@ -31,9 +31,7 @@ bool has_ffmpeg() {
 // Another PATH while it lives.
 class PathOf {
  public:
-  explicit PathOf(const std::string& path) : before_(std::getenv("PATH")) {
-    ::setenv("PATH", path.c_str(), 1);
-  }
+  explicit PathOf(const std::string& path) : before_(std::getenv("PATH")) { ::setenv("PATH", path.c_str(), 1); }
   ~PathOf() { ::setenv("PATH", before_.c_str(), 1); }
   PathOf(const PathOf&) = delete;
   PathOf& operator=(const PathOf&) = delete;
@@ -69,8 +67,7 @@ TEST(Write, EveryFormatAndReadsTheRecordsBack) {
 TEST(Write, RefusesBeforeAnythingIsSimulated) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& name, const WriteOptions& options = {}) {
-    const std::string text =
-        message_of<std::invalid_argument>([&] { check_writable(folder / name, options); });
+    const std::string text = message_of<std::invalid_argument>([&] { check_writable(folder / name, options); });
     EXPECT_EQ(text.find('\n'), std::string::npos);
     return text;
   };
@@ -78,8 +75,8 @@ TEST(Write, RefusesBeforeAnythingIsSimulated) {
   EXPECT_TRUE(has(refusal("run"), "the name must end in"));
   EXPECT_TRUE(has(refusal("run.csv", {.format = "avi"}), "format: must be one of csv, npz"));
   EXPECT_TRUE(has(refusal("none/run.csv"), "none cannot be used: No such file or directory"));
-  EXPECT_TRUE(has(refusal("run.gif", {.width = 159}),
-                  "width: must be 0 (chosen for you) or in [160, 4096] px, got 159"));
+  EXPECT_TRUE(
+      has(refusal("run.gif", {.width = 159}), "width: must be 0 (chosen for you) or in [160, 4096] px, got 159"));
   EXPECT_TRUE(has(refusal("run.gif", {.height = 5000}), "height: must be"));
   EXPECT_TRUE(has(refusal("run.gif", {.speed = -1.0}), "speed: must be finite and > 0, got -1"));
   write_file_atomically(folder / "old.csv", "x", false);
@@ -118,11 +115,9 @@ TEST(Write, ARecordThatCannotBeDrawnLeavesNoFile) {
 TEST(Read, RefusesWhatIsNoRecord) {
   const TemporaryFolder folder;
   write_file_atomically(folder / "a.npz", "hello", false);
-  EXPECT_TRUE(has(message_of<std::invalid_argument>([&] { read_record(folder / "a.npz"); }),
-                  "a.npz: is not a whole"));
+  EXPECT_TRUE(has(message_of<std::invalid_argument>([&] { read_record(folder / "a.npz"); }), "a.npz: is not a whole"));
   write_file_atomically(folder / "a.csv", "k,t\n", false);
-  EXPECT_TRUE(
-      has(message_of<std::invalid_argument>([&] { read_record(folder / "a.csv"); }), "a.csv:1:1: expected"));
+  EXPECT_TRUE(has(message_of<std::invalid_argument>([&] { read_record(folder / "a.csv"); }), "a.csv:1:1: expected"));
   EXPECT_THROW(read_record(folder / "none.csv"), std::system_error);
   EXPECT_TRUE(has(message_of<std::invalid_argument>([&] { read_record(folder / "a.txt"); }),
                   "a record is read from a .csv, .npz or .h5 file"));
@@ -152,9 +147,8 @@ TEST(Mp4, AnFfmpegThatFailsIsReportedWithItsLastWords) {
 
 TEST(Mp4, AnFfmpegThatTalksWithoutEndDoesNotBlock) {
   const TemporaryFolder folder;
-  write_program(
-      folder / "ffmpeg",
-      "#!/bin/sh\nhead -c 500000 /dev/zero | tr '\\0' 'x' >&2\ncat >/dev/null\necho the end >&2\nexit 1\n");
+  write_program(folder / "ffmpeg",
+                "#!/bin/sh\nhead -c 500000 /dev/zero | tr '\\0' 'x' >&2\ncat >/dev/null\necho the end >&2\nexit 1\n");
   const PathOf path(folder.path().string() + ":" + std::getenv("PATH"));
   const std::string text =
       message_of<std::runtime_error>([&] { write_record(test::course_record(10), folder / "run.mp4"); });
@@ -164,8 +158,8 @@ TEST(Mp4, AnFfmpegThatTalksWithoutEndDoesNotBlock) {
 TEST(Mp4, OddSizesAndPipesAreRefused) {
   if (!has_ffmpeg()) GTEST_SKIP();
   const TemporaryFolder folder;
-  const std::string text = message_of<std::invalid_argument>(
-      [&] { check_writable(folder / "run.mp4", {.width = 641, .height = 400}); });
+  const std::string text =
+      message_of<std::invalid_argument>([&] { check_writable(folder / "run.mp4", {.width = 641, .height = 400}); });
   EXPECT_TRUE(has(text, "width: must be even for an .mp4, got 641 px")) << text;
   EXPECT_NO_THROW(check_writable(folder / "run.mp4", {.width = 642}));
   EXPECT_THROW(check_writable("/dev/null", {.format = "mp4"}), std::invalid_argument);

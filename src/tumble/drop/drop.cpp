@@ -249,7 +249,8 @@ State step(const Vector3& q, const Vector3& v, const Parameters& parameters) {
 
 Trajectory simulate(const Vector3& q0, const Vector3& v0, const Parameters& parameters) {
   const Model model(parameters);
-  // Above this height no corner is within delta, whatever the angle (0.7072 > sqrt(1/2)): the distance need not be known.
+  // Above this height no corner is within delta, whatever the angle (0.7072 > sqrt(1/2)): the distance need not be
+  // known.
   const double clear_height = parameters.delta + 0.7072 * parameters.l;
   return run(q0, v0, model, [&](State& state) {
     if (state.q[1] > clear_height) {

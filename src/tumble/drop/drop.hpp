@@ -57,9 +57,9 @@ class NoSolution : public std::runtime_error {
   LcpStatus status;
 };
 
-// f_c = (f_n, f_t1, f_t2) [N] of a solution of any 4 x 4 LCP, not only those of form_lcp: by closed form if V and p have
-// the contact structure, else by Lemke, else by trying all bases. Of several solutions, one.
-// Throws NoSolution if there is none, std::invalid_argument if an entry is NaN or infinite.
+// f_c = (f_n, f_t1, f_t2) [N] of a solution of any 4 x 4 LCP, not only those of form_lcp: by closed form if V and p
+// have the contact structure, else by Lemke, else by trying all bases. Of several solutions, one. Throws NoSolution if
+// there is none, std::invalid_argument if an entry is NaN or infinite.
 Vector3 solve_LCP(const Matrix4& V, const Vector4& p);
 
 // ---- Part 3: one step ----
@@ -74,12 +74,12 @@ State step(const Vector3& q, const Vector3& v, const Parameters& parameters = {}
 
 // What one step did, beside the state it led to.
 struct StepRecord {
-  double gap = 0.0;                         // phi before the step [m]
-  int corner = 0;                           // lowest corner before the step, see corner_index
-  Vector4 z{};                              // f_n, f_t1, f_t2 [N], lambda [m/s]; zero if phi >= delta
-  ContactMode mode = ContactMode::open;     // what the corner does during the step
-  LcpStatus status = LcpStatus::solved;     // solved, or numerical: the state after the step means nothing then
-  double residual = 0.0;                    // of the LCP [-]
+  double gap = 0.0;                      // phi before the step [m]
+  int corner = 0;                        // lowest corner before the step, see corner_index
+  Vector4 z{};                           // f_n, f_t1, f_t2 [N], lambda [m/s]; zero if phi >= delta
+  ContactMode mode = ContactMode::open;  // what the corner does during the step
+  LcpStatus status = LcpStatus::solved;  // solved, or numerical: the state after the step means nothing then
+  double residual = 0.0;                 // of the LCP [-]
 };
 
 struct RecordedStep {

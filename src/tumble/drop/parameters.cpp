@@ -26,8 +26,7 @@ void validate(const Parameters& p) {
   require(std::isfinite(p.delta) && p.delta >= 0.0, "delta", "finite and >= 0", p.delta, "m");
   require(std::isfinite(p.g), "g", "finite", p.g, "m/s^2");
   if (p.columns < 1 || p.columns > k_max_columns) {
-    throw std::invalid_argument(
-        fmt::format("columns: must be in [1, {}], got {}", k_max_columns, p.columns));
+    throw std::invalid_argument(fmt::format("columns: must be in [1, {}], got {}", k_max_columns, p.columns));
   }
   const double moment_of_inertia = p.m * p.l * p.l / 6.0;
   require(moment_of_inertia > 1e-300 && moment_of_inertia < 1e300 && p.m > 1e-300 && p.m < 1e300, "m, l",

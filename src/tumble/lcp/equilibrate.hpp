@@ -8,20 +8,20 @@
 namespace tumble {
 
 // M_ij * 2^(row[i] + column[j]) has magnitude near 1 for i = j. row[i] - column[i] is the same for all i, so that the
-// products w_i z_i keep their relative sizes: in a problem of mechanics all of them bear one unit (a power, a work), and
-// this covers every change of the units of mass, length and time.
+// products w_i z_i keep their relative sizes: in a problem of mechanics all of them bear one unit (a power, a work),
+// and this covers every change of the units of mass, length and time.
 struct Equilibration {
   std::vector<int> row;
   std::vector<int> column;
 
-  // Rows and columns that are coupled by entries other than 0, directly or through others, bear the same block number in
-  // 0 .. 2 n - 1. Blocks are problems of their own, each with its own size.
+  // Rows and columns that are coupled by entries other than 0, directly or through others, bear the same block number
+  // in 0 .. 2 n - 1. Blocks are problems of their own, each with its own size.
   std::vector<std::size_t> row_block;
   std::vector<std::size_t> column_block;
 };
 
-// Jacobi's scaling. A row without a diagonal entry (the friction cones of contacts) is scaled by its largest entry whose
-// partner is scaled already. For a positive semidefinite M no scaled entry exceeds 2.
+// Jacobi's scaling. A row without a diagonal entry (the friction cones of contacts) is scaled by its largest entry
+// whose partner is scaled already. For a positive semidefinite M no scaled entry exceeds 2.
 Equilibration equilibrate(const LcpProblem& problem);
 
 // The largest |q_k| 2^row[k] of each block (2 n values), the size of what is to be solved there.

@@ -30,8 +30,7 @@ double one_contact_residual(const OneContact& c, const Vector4& z) {
   const double inverse_d_t = 1.0 / (velocity_size + std::abs(c.b_t) + A_nt * f_n + c.A_tt * f_t_sum + slip_speed);
   const double inverse_d_cone = c.A_nn / (velocity_size + c.A_nn * (c.friction * f_n + f_t_sum));
 
-  const double inverse_s_n =
-      larger(larger(c.A_nn * inverse_d_n, A_nt * inverse_d_t), c.friction * inverse_d_cone);
+  const double inverse_s_n = larger(larger(c.A_nn * inverse_d_n, A_nt * inverse_d_t), c.friction * inverse_d_cone);
   const double inverse_s_t = larger(larger(A_nt * inverse_d_n, c.A_tt * inverse_d_t), inverse_d_cone);
 
   const double normal = violation(u_n * inverse_d_n, f_n * inverse_s_n);
@@ -88,9 +87,9 @@ std::string_view to_string(ContactMode mode) {
 
 LcpProblem as_lcp(const OneContact& c) {
   const double velocity_size = larger(std::abs(c.b_n), std::abs(c.b_t));
-  return {{c.A_nn, -c.A_nt, c.A_nt, 0.0,    //
-           -c.A_nt, c.A_tt, -c.A_tt, 1.0,   //
-           c.A_nt, -c.A_tt, c.A_tt, 1.0,    //
+  return {{c.A_nn, -c.A_nt, c.A_nt, 0.0,   //
+           -c.A_nt, c.A_tt, -c.A_tt, 1.0,  //
+           c.A_nt, -c.A_tt, c.A_tt, 1.0,   //
            c.friction, -1.0, -1.0, 0.0},
           {c.b_n, -c.b_t, c.b_t, 0.0},
           {velocity_size, velocity_size, velocity_size, velocity_size / c.A_nn}};

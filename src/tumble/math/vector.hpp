@@ -1,4 +1,5 @@
-// Small fixed-size vectors and matrices: plain arrays, so that they cross compilers, languages and build flags unchanged.
+// Small fixed-size vectors and matrices: plain arrays, so that they cross compilers, languages and build flags
+// unchanged.
 #pragma once
 
 #include <array>

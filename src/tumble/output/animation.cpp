@@ -111,8 +111,7 @@ int count_frames(int columns, double dt, double speed, int max_frames) {
   return static_cast<int>(frames);
 }
 
-Animation::Parts::Parts(const drop::Record& the_record, int width, int height, double the_speed,
-                        int max_frames)
+Animation::Parts::Parts(const drop::Record& the_record, int width, int height, double the_speed, int max_frames)
     : record(the_record),
       speed(the_speed),
       frames(count_frames(record.trajectory.columns, record.parameters.dt, speed, max_frames)),
@@ -184,12 +183,10 @@ void Animation::Parts::collect_impulses(int frame, int column) {
   std::vector<Impulse> fresh;
   while (next_impulse < impulses.size() && impulses[next_impulse].column <= column)
     fresh.push_back(impulses[next_impulse++]);
-  for (const Impulse& impulse :
-       keep_largest(std::move(fresh), k_most_new_arrows, k_smallest_arrow * largest)) {
+  for (const Impulse& impulse : keep_largest(std::move(fresh), k_most_new_arrows, k_smallest_arrow * largest)) {
     shown.push_back({impulse, frame});
   }
-  std::erase_if(shown,
-                [&](const ShownImpulse& old) { return (frame - old.frame) * k_frame_time >= k_fade_time; });
+  std::erase_if(shown, [&](const ShownImpulse& old) { return (frame - old.frame) * k_frame_time >= k_fade_time; });
 }
 
 void Animation::Parts::draw_arrows(int frame) {
@@ -214,8 +211,7 @@ void Animation::Parts::draw_motion(int frame, int column) {
 
 void Animation::Parts::draw_panel(int column) {
   const double left = panel.left;
-  canvas.draw_text({left, panel.top + 14.0},
-                   fmt::format("t = {:.{}f} s", column * record.parameters.dt, time_decimals),
+  canvas.draw_text({left, panel.top + 14.0}, fmt::format("t = {:.{}f} s", column * record.parameters.dt, time_decimals),
                    {17.0, k_ink, Align::left, true});
   canvas.draw_text({left, panel.top + 44.0}, "Energy", {k_text, k_ink, Align::left, true});
   const auto [kinetic, potential] = energies_at(record, column);
@@ -240,9 +236,7 @@ Animation::Animation(const drop::Record& record, int width, int height, double s
 
 Animation::~Animation() = default;
 
-int Animation::frames() const {
-  return parts_->frames;
-}
+int Animation::frames() const { return parts_->frames; }
 
 std::vector<std::uint32_t> Animation::draw(int i) {
   const int column = parts_->column_of(i);

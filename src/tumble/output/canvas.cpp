@@ -29,8 +29,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) {
 
 Colour mix(const Colour& a, const Colour& b, double share) {
   const auto between = [share](double from, double to) { return from + share * (to - from); };
-  return {between(a.red, b.red), between(a.green, b.green), between(a.blue, b.blue),
-          between(a.opacity, b.opacity)};
+  return {between(a.red, b.red), between(a.green, b.green), between(a.blue, b.blue), between(a.opacity, b.opacity)};
 }
 
 Canvas::Canvas(int width, int height) : width_(width), height_(height) {}
@@ -176,9 +175,7 @@ void Canvas::clip(const Frame& frame) {
   cairo_clip(context_);
 }
 
-void Canvas::unclip() {
-  cairo_restore(context_);
-}
+void Canvas::unclip() { cairo_restore(context_); }
 
 void Canvas::copy_pixels(const Canvas& other) {
   cairo_surface_flush(surface_);

@@ -89,8 +89,7 @@ std::optional<int> parse_count(std::string_view text) {
 // ---- Header ----
 
 // The text between "# name = " and the unit.
-std::string_view header_value(LineReader& lines, std::string_view name, std::string_view unit,
-                              std::size_t& column) {
+std::string_view header_value(LineReader& lines, std::string_view name, std::string_view unit, std::size_t& column) {
   const std::string before = fmt::format("# {} = ", name);
   const std::string after = unit.empty() ? "" : fmt::format(" {}", unit);
   const std::string expected = fmt::format("'{}VALUE{}'", before, after);
@@ -117,8 +116,8 @@ int header_count(LineReader& lines, std::string_view name) {
   const std::string_view text = header_value(lines, name, "", column);
   const std::optional<int> value = parse_count(text);
   if (!value || *value < 1 || *value > drop::k_max_columns) {
-    lines.refuse(column, fmt::format("{}: must be a whole number in [1, {}], got {}", name,
-                                     drop::k_max_columns, quoted(text)));
+    lines.refuse(column,
+                 fmt::format("{}: must be a whole number in [1, {}], got {}", name, drop::k_max_columns, quoted(text)));
   }
   return *value;
 }
@@ -152,8 +151,7 @@ class Row {
   Row(const LineReader& lines, std::string_view line)
       : lines_(lines), names_(k_names), rest_(line), line_bytes_(line.size()) {
     const auto fields = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
-    if (fields != k_row_fields)
-      lines.refuse(1, fmt::format("expected {} columns, got {}", k_row_fields, fields));
+    if (fields != k_row_fields) lines.refuse(1, fmt::format("expected {} columns, got {}", k_row_fields, fields));
   }
 
   struct Cell {
@@ -253,9 +251,8 @@ std::string csv_header(const Record& record) {
   return fmt::format(
       "{}\n# l = {} m\n# m = {} kg\n# mu = {}\n# eps = {}\n# dt = {} s\n# delta = {} m\n# g = {} m/s^2\n"
       "# columns = {}\n# rows = {}\n# status = {}\n{}\n",
-      k_first_line, to_text(p.l), to_text(p.m), to_text(p.mu), to_text(p.eps), to_text(p.dt),
-      to_text(p.delta), to_text(p.g), p.columns, record.trajectory.columns,
-      to_string(record.trajectory.status), k_names);
+      k_first_line, to_text(p.l), to_text(p.m), to_text(p.mu), to_text(p.eps), to_text(p.dt), to_text(p.delta),
+      to_text(p.g), p.columns, record.trajectory.columns, to_string(record.trajectory.status), k_names);
 }
 
 std::string csv_rows(const Record& record, int first, int last) {
@@ -278,28 +275,23 @@ std::string csv_rows(const Record& record, int first, int last) {
   return text;
 }
 
-std::string to_csv(const Record& record) {
-  return csv_header(record) + csv_rows(record, 0, record.trajectory.columns);
-}
+std::string to_csv(const Record& record) { return csv_header(record) + csv_rows(record, 0, record.trajectory.columns); }
 
 Record parse_record_csv(std::string_view text, const std::string& name) {
   LineReader lines(text, name);
   const std::string_view first = lines.next(fmt::format("'{}'", k_first_line));
-  if (first != k_first_line)
-    lines.refuse(1, fmt::format("expected '{}', got {}", k_first_line, quoted(first)));
+  if (first != k_first_line) lines.refuse(1, fmt::format("expected '{}', got {}", k_first_line, quoted(first)));
   Record record;
   record.parameters = parse_parameters(lines);
   const int rows = header_count(lines, "rows");
   if (rows > record.parameters.columns) {
-    lines.refuse(1,
-                 fmt::format("rows: must be at most columns = {}, got {}", record.parameters.columns, rows));
+    lines.refuse(1, fmt::format("rows: must be at most columns = {}, got {}", record.parameters.columns, rows));
   }
   const auto columns = static_cast<std::size_t>(rows);
   // Before anything is allocated: the text must be long enough for so many rows.
   if (lines.rest().size() / k_min_row_bytes < columns) {
-    lines.refuse(
-        1, fmt::format("rows: {} rows are announced, but the file is too short for them: was it cut off?",
-                       rows));
+    lines.refuse(1,
+                 fmt::format("rows: {} rows are announced, but the file is too short for them: was it cut off?", rows));
   }
   record.trajectory.columns = rows;
   record.trajectory.q.resize(3 * columns);
@@ -317,8 +309,7 @@ Record parse_record_csv(std::string_view text, const std::string& name) {
   if (!is_known)
     lines.refuse(at, fmt::format("status: must be one of {}, got {}", names_of(k_statuses), quoted(status)));
   const std::string_view names = lines.next("the line of column names");
-  if (names != k_names)
-    lines.refuse(1, fmt::format("expected the column names '{}', got {}", k_names, quoted(names)));
+  if (names != k_names) lines.refuse(1, fmt::format("expected the column names '{}', got {}", k_names, quoted(names)));
 
   for (int k = 0; k < rows; ++k) {
     parse_row(Row(lines, lines.next(fmt::format("row {} of {}", k + 1, rows))), k, record);

@@ -33,22 +33,17 @@ void draw_ground(Canvas& canvas, const View& view) {
 
 Colour colour_of(ContactMode mode) {
   switch (mode) {
-    case ContactMode::stick:
-      return k_stick;
-    case ContactMode::slip_left:
-      return k_slip_left;
-    case ContactMode::slip_right:
-      return k_slip_right;
-    case ContactMode::open:
-      break;
+    case ContactMode::stick: return k_stick;
+    case ContactMode::slip_left: return k_slip_left;
+    case ContactMode::slip_right: return k_slip_right;
+    case ContactMode::open: break;
   }
   return k_muted;
 }
 
 std::string parameters_text(const drop::Parameters& p) {
-  return fmt::format("l = {:.6g} m,  m = {:.6g} kg,  μ = {:.6g},  ε = {:.6g},  Δt = {:.6g} s{}", p.l, p.m,
-                     p.mu, p.eps, p.dt,
-                     p.g == drop::Parameters{}.g ? "" : fmt::format(",  g = {:.6g} m/s²", p.g));
+  return fmt::format("l = {:.6g} m,  m = {:.6g} kg,  μ = {:.6g},  ε = {:.6g},  Δt = {:.6g} s{}", p.l, p.m, p.mu, p.eps,
+                     p.dt, p.g == drop::Parameters{}.g ? "" : fmt::format(",  g = {:.6g} m/s²", p.g));
 }
 
 int decimals_for(double largest, int low) {
@@ -68,22 +63,20 @@ void draw_surroundings(Canvas& canvas, const View& view, double text_size) {
   const Axis y_axis = axis_y(view, std::max(2, static_cast<int>(frame.height / k_tick_spacing_y)));
   const Stroke grid{k_grid, 1.0};
   TextStyle label{text_size, k_muted, Align::centre};
-  for (const Tick& tick : x_axis.ticks)
-    canvas.draw_line({tick.pixel, frame.top}, {tick.pixel, frame.bottom()}, grid);
-  for (const Tick& tick : y_axis.ticks)
-    canvas.draw_line({frame.left, tick.pixel}, {frame.right(), tick.pixel}, grid);
+  for (const Tick& tick : x_axis.ticks) canvas.draw_line({tick.pixel, frame.top}, {tick.pixel, frame.bottom()}, grid);
+  for (const Tick& tick : y_axis.ticks) canvas.draw_line({frame.left, tick.pixel}, {frame.right(), tick.pixel}, grid);
 
   const double baseline = frame.bottom() + 1.5 * text_size;
   for (const Tick& tick : x_axis.ticks) canvas.draw_text({tick.pixel, baseline}, tick.label, label);
-  canvas.draw_text({frame.left + 0.5 * frame.width, baseline + 1.5 * text_size},
-                   fmt::format("x [{}]", x_axis.unit), label);
+  canvas.draw_text({frame.left + 0.5 * frame.width, baseline + 1.5 * text_size}, fmt::format("x [{}]", x_axis.unit),
+                   label);
   label.align = Align::right;
   for (const Tick& tick : y_axis.ticks) {
     canvas.draw_text({frame.left - 0.6 * text_size, tick.pixel + 0.36 * text_size}, tick.label, label);
   }
   label.align = Align::left;
-  canvas.draw_text({frame.left - 2.6 * text_size, frame.top - 0.8 * text_size},
-                   fmt::format("y [{}]", y_axis.unit), label);
+  canvas.draw_text({frame.left - 2.6 * text_size, frame.top - 0.8 * text_size}, fmt::format("y [{}]", y_axis.unit),
+                   label);
   if (view.has_ground) draw_ground(canvas, view);
 }
 
@@ -127,12 +120,10 @@ void draw_impulse(Canvas& canvas, Point tail, const Impulse& impulse, const Arro
   const double half = 0.42 * head;
   const Point tip{tail.x + style.length * along_x, tail.y + style.length * along_y};
   const Point neck{tip.x - head * along_x, tip.y - head * along_y};
-  canvas.draw_line(tail, {neck.x + 0.2 * head * along_x, neck.y + 0.2 * head * along_y},
-                   {style.colour, style.width});
-  canvas.draw_polygon({tip,
-                       {neck.x - half * along_y, neck.y + half * along_x},
-                       {neck.x + half * along_y, neck.y - half * along_x}},
-                      style.colour, {style.colour, 0.0});
+  canvas.draw_line(tail, {neck.x + 0.2 * head * along_x, neck.y + 0.2 * head * along_y}, {style.colour, style.width});
+  canvas.draw_polygon(
+      {tip, {neck.x - half * along_y, neck.y + half * along_x}, {neck.x + half * along_y, neck.y - half * along_x}},
+      style.colour, {style.colour, 0.0});
 }
 
 void draw_cone(Canvas& canvas, Point apex, double mu, double length, double opacity) {
@@ -144,8 +135,7 @@ void draw_cone(Canvas& canvas, Point apex, double mu, double length, double opac
   canvas.draw_polyline({left, apex, right}, {k_muted.with_opacity(0.45 * opacity), 0.8});
 }
 
-void draw_path(Canvas& canvas, const View& view, const drop::Record& record, int first, int last,
-               const Stroke& style) {
+void draw_path(Canvas& canvas, const View& view, const drop::Record& record, int first, int last, const Stroke& style) {
   constexpr double k_closest = 0.3;  // [px]
   std::vector<Point> points;
   for (int k = first; k <= last; ++k) {

@@ -62,7 +62,6 @@ void draw_impulse(Canvas& canvas, Point tail, const Impulse& impulse, const Arro
 void draw_cone(Canvas& canvas, Point apex, double mu, double length, double opacity);
 
 // The way of the centre over the columns [first, last], without points that no pixel would tell apart.
-void draw_path(Canvas& canvas, const View& view, const drop::Record& record, int first, int last,
-               const Stroke& style);
+void draw_path(Canvas& canvas, const View& view, const drop::Record& record, int first, int last, const Stroke& style);
 
 }  // namespace tumble::output

@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const char* action, const fs::path& path, int error) {
-  throw std::system_error(error, std::generic_category(),
-                          fmt::format("cannot {} {}", action, path_text(path)));
+  throw std::system_error(error, std::generic_category(), fmt::format("cannot {} {}", action, path_text(path)));
 }
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view why) {
@@ -34,9 +33,7 @@ struct Target {
   mode_t mode = 0;         // permissions, if it exists
 };
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 // A descriptor of a running process seen as a file, as behind /dev/stdout: renaming over it would miss its
 // owner.
@@ -80,13 +77,13 @@ void check(const fs::path& path, const Target& target, bool overwrite) {
   const fs::path folder = folder_of(target.path);
   struct stat info {};
   if (::stat(folder.c_str(), &info) != 0) {
-    refuse(path, fmt::format("the folder {} cannot be used: {}", path_text(folder),
-                             std::generic_category().message(errno)));
+    refuse(path,
+           fmt::format("the folder {} cannot be used: {}", path_text(folder), std::generic_category().message(errno)));
   }
   if (!S_ISDIR(info.st_mode)) refuse(path, fmt::format("{} is not a folder", path_text(folder)));
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    refuse(path, fmt::format("the folder {} is not writable: {}", path_text(folder),
-                             std::generic_category().message(errno)));
+    refuse(path,
+           fmt::format("the folder {} is not writable: {}", path_text(folder), std::generic_category().message(errno)));
   }
 }
 
@@ -149,8 +146,7 @@ void OutputFile::write(std::string_view bytes) {
 
 void OutputFile::commit() {
   // Pipes and devices answer EINVAL or ENOTSUP: there is nothing to bring to a disk.
-  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
-    fail("write", path_, errno);
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) fail("write", path_, errno);
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   if (closed != 0 && errno != EINTR) fail("write", path_, errno);
@@ -180,9 +176,7 @@ void check_target(const fs::path& path, bool overwrite) {
   }
 }
 
-bool is_direct_target(const fs::path& path) {
-  return find_target(path).is_direct;
-}
+bool is_direct_target(const fs::path& path) { return find_target(path).is_direct; }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes, bool overwrite) {
   OutputFile file(path, overwrite);
@@ -199,8 +193,7 @@ std::string read_file(const fs::path& path, std::size_t max_bytes) {
   } const closer{descriptor};
 
   const auto check_size = [&](std::size_t size) {
-    if (size > max_bytes)
-      refuse(path, fmt::format("has more than {} bytes, the most that is read", max_bytes));
+    if (size > max_bytes) refuse(path, fmt::format("has more than {} bytes, the most that is read", max_bytes));
   };
   struct stat info {};
   if (::fstat(descriptor, &info) != 0) fail("read", path, errno);

@@ -101,8 +101,8 @@ struct Patch {
 };
 
 // The rectangle in which `now` differs, unchanged pixels transparent; nothing if they are equal.
-std::optional<Patch> changed_part(const std::vector<std::uint8_t>& before,
-                                  const std::vector<std::uint8_t>& now, int width) {
+std::optional<Patch> changed_part(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& now,
+                                  int width) {
   const int height = static_cast<int>(now.size()) / width;
   int left = width;
   int right = -1;
@@ -125,8 +125,7 @@ std::optional<Patch> changed_part(const std::vector<std::uint8_t>& before,
   patch.indices.reserve(static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height));
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
-      const auto at =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       patch.indices.push_back(now[at] == before[at] ? k_transparent : now[at]);
     }
   }
@@ -154,12 +153,11 @@ class GifWriter {
     EGifSetGifVersion(file_, true);
     std::array<GifColorType, k_colours> colours{};
     for (std::size_t i = 0; i < k_colours; ++i) {
-      colours[i] = {static_cast<GifByteType>(palette[i] >> 16),
-                    static_cast<GifByteType>(palette[i] >> 8 & 255u),
+      colours[i] = {static_cast<GifByteType>(palette[i] >> 16), static_cast<GifByteType>(palette[i] >> 8 & 255u),
                     static_cast<GifByteType>(palette[i] & 255u)};
     }
-    const std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)> map(
-        GifMakeMapObject(k_colours, colours.data()), GifFreeMapObject);
+    const std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)> map(GifMakeMapObject(k_colours, colours.data()),
+                                                                         GifFreeMapObject);
     if (!map) throw std::bad_alloc();
     require(EGifPutScreenDesc(file_, width, height, k_colour_bits, 0, map.get()));
     // Repeats for ever: the block that Netscape introduced and all viewers know.
@@ -185,8 +183,7 @@ class GifWriter {
     require(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, static_cast<int>(size), extension.data()));
     require(EGifPutImageDesc(file_, patch.left, patch.top, patch.width, patch.height, false, nullptr));
     for (int y = 0; y < patch.height; ++y) {
-      require(EGifPutLine(file_, patch.indices.data() + static_cast<std::ptrdiff_t>(y) * patch.width,
-                          patch.width));
+      require(EGifPutLine(file_, patch.indices.data() + static_cast<std::ptrdiff_t>(y) * patch.width, patch.width));
     }
   }
 
@@ -201,8 +198,7 @@ class GifWriter {
  private:
   [[noreturn]] static void fail(int error) {
     const char* reason = GifErrorString(error);
-    throw std::runtime_error(
-        fmt::format("giflib cannot write: {}", reason != nullptr ? reason : "unknown reason"));
+    throw std::runtime_error(fmt::format("giflib cannot write: {}", reason != nullptr ? reason : "unknown reason"));
   }
 
   void require(int result) const {

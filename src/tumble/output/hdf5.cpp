@@ -82,17 +82,16 @@ Handle text_type(std::size_t width) {
 void write_units(hid_t dataset, const std::string& unit) {
   const Handle type = text_type(unit.size());
   const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
-  const Handle attribute = made(H5Acreate2(dataset, "units", type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                                "make an attribute");
+  const Handle attribute =
+      made(H5Acreate2(dataset, "units", type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "make an attribute");
   require(H5Awrite(attribute, type, unit.data()) >= 0, "write an attribute");
 }
 
 Handle create_dataset(hid_t file, const Field& field, hid_t type) {
   std::vector<hsize_t> sizes(field.shape.begin(), field.shape.end());
-  const Handle space = sizes.empty()
-                           ? made(H5Screate(H5S_SCALAR), H5Sclose, "make a data space")
-                           : made(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr),
-                                  H5Sclose, "make a data space");
+  const Handle space = sizes.empty() ? made(H5Screate(H5S_SCALAR), H5Sclose, "make a data space")
+                                     : made(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr),
+                                            H5Sclose, "make a data space");
   const Handle settings = made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make dataset settings");
   require(H5Pset_obj_track_times(settings, false) >= 0, "switch off time stamps");
   if (!sizes.empty()) {
@@ -126,8 +125,7 @@ struct DatasetWriter {
 
   Handle write(hid_t file_type, hid_t memory_type, const void* data) const {
     Handle dataset = create_dataset(file, field, file_type);
-    require(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0,
-            "write dataset " + field.name);
+    require(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "write dataset " + field.name);
     return dataset;
   }
 
@@ -159,8 +157,7 @@ NumberArray read_dataset(hid_t file, const std::string& field, const std::string
   const Handle dataset(H5Dopen2(file, field.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.is_valid()) refuse(place, "is not a dataset");
   const Handle settings(H5Dget_create_plist(dataset), H5Pclose);
-  if (!settings.is_valid() || H5Pget_external_count(settings) != 0)
-    refuse(place, "its values lie in another file");
+  if (!settings.is_valid() || H5Pget_external_count(settings) != 0) refuse(place, "its values lie in another file");
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const H5T_class_t kind = H5Tget_class(type);
   if (kind != H5T_FLOAT && kind != H5T_INTEGER) refuse(place, "must hold real or whole numbers");
@@ -192,9 +189,7 @@ NumberArray read_dataset(hid_t file, const std::string& field, const std::string
 
 void check_hdf5() {}
 
-bool has_hdf5() {
-  return true;
-}
+bool has_hdf5() { return true; }
 
 std::string to_hdf5(const drop::Record& record) {
   const std::vector<Field> fields = to_fields(record);
@@ -227,8 +222,7 @@ drop::Record parse_record_hdf5(std::string_view bytes, const std::string& name) 
     const Handle file(H5Fopen("record.h5", H5F_ACC_RDONLY, settings), H5Fclose);
     if (!file.is_valid()) refuse(name, "is not a whole HDF5 file; was it cut off?");
     for (const std::string& field : field_names_read()) {
-      if (is_inside(file, field))
-        fields[field] = read_dataset(file, field, fmt::format("{}: {}", name, field));
+      if (is_inside(file, field)) fields[field] = read_dataset(file, field, fmt::format("{}: {}", name, field));
     }
   }
   return from_fields(fields, name);

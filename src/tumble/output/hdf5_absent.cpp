@@ -12,20 +12,12 @@ namespace {
 
 }  // namespace
 
-void check_hdf5() {
-  refuse();
-}
+void check_hdf5() { refuse(); }
 
-bool has_hdf5() {
-  return false;
-}
+bool has_hdf5() { return false; }
 
-std::string to_hdf5(const drop::Record&) {
-  refuse();
-}
+std::string to_hdf5(const drop::Record&) { refuse(); }
 
-drop::Record parse_record_hdf5(std::string_view, const std::string&) {
-  refuse();
-}
+drop::Record parse_record_hdf5(std::string_view, const std::string&) { refuse(); }
 
 }  // namespace tumble::output

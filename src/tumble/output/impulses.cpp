@@ -32,8 +32,7 @@ std::vector<Impulse> keep_largest(std::vector<Impulse> impulses, std::size_t cou
   std::stable_sort(impulses.begin(), impulses.end(),
                    [](const Impulse& a, const Impulse& b) { return a.size > b.size; });
   if (impulses.size() > count) impulses.resize(count);
-  std::sort(impulses.begin(), impulses.end(),
-            [](const Impulse& a, const Impulse& b) { return a.column < b.column; });
+  std::sort(impulses.begin(), impulses.end(), [](const Impulse& a, const Impulse& b) { return a.column < b.column; });
   return impulses;
 }
 

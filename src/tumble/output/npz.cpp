@@ -70,8 +70,7 @@ struct NpyBody {
     std::string bytes = npy_header(fmt::format("<U{}", width), shape);
     for (const std::string& value : values) {
       for (std::size_t i = 0; i < width; ++i) {
-        put_value<std::uint32_t, std::uint32_t>(bytes,
-                                                i < value.size() ? static_cast<unsigned char>(value[i]) : 0u);
+        put_value<std::uint32_t, std::uint32_t>(bytes, i < value.size() ? static_cast<unsigned char>(value[i]) : 0u);
       }
     }
     return bytes;
@@ -146,11 +145,10 @@ NpyHeader parse_dictionary(std::string_view dictionary, const std::string& place
   header.order = (*descr)[1];
   header.kind = (*descr)[2];
   header.width = parse_size(descr->substr(3, descr->size() - 4)).value_or(0);
-  const bool is_number =
-      (header.kind == 'f' && (header.width == 4 || header.width == 8)) ||
-      ((header.kind == 'i' || header.kind == 'u') &&
-       (header.width == 1 || header.width == 2 || header.width == 4 || header.width == 8)) ||
-      (header.kind == 'b' && header.width == 1);
+  const bool is_number = (header.kind == 'f' && (header.width == 4 || header.width == 8)) ||
+                         ((header.kind == 'i' || header.kind == 'u') &&
+                          (header.width == 1 || header.width == 2 || header.width == 4 || header.width == 8)) ||
+                         (header.kind == 'b' && header.width == 1);
   if (!is_number || std::string_view("<>|").find(header.order) == std::string_view::npos) {
     refuse(place, "must hold real or whole numbers of at most 8 bytes");
   }
@@ -183,15 +181,11 @@ double value_at(const NpyHeader& header, const unsigned char* bytes) {
 
 NumberArray parse_npy(std::string_view bytes, const std::string& place) {
   if (!bytes.starts_with(k_magic) || bytes.size() < k_magic.size() + 6) refuse(place, "is not an npy array");
-  const auto byte = [&](std::size_t at) {
-    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at]));
-  };
+  const auto byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at])); };
   const std::size_t version = byte(6);
-  if (version < 1 || version > 3)
-    refuse(place, fmt::format("has npy version {}, allowed are 1 to 3", version));
+  if (version < 1 || version > 3) refuse(place, fmt::format("has npy version {}, allowed are 1 to 3", version));
   const std::size_t start = version == 1 ? 10 : 12;
-  const std::size_t size =
-      byte(8) + (byte(9) << 8) + (version == 1 ? 0 : (byte(10) << 16) + (byte(11) << 24));
+  const std::size_t size = byte(8) + (byte(9) << 8) + (version == 1 ? 0 : (byte(10) << 16) + (byte(11) << 24));
   if (size > k_max_header || bytes.size() - start < size) refuse(place, "its npy header is broken");
   const NpyHeader header = parse_dictionary(bytes.substr(start, size), place);
   const std::string_view body = bytes.substr(start + size);

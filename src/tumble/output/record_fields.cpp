@@ -57,8 +57,7 @@ std::vector<std::string> names_of(int count) {
 
 class Reader {
  public:
-  Reader(const std::map<std::string, NumberArray>& fields, const std::string& name)
-      : fields_(fields), name_(name) {}
+  Reader(const std::map<std::string, NumberArray>& fields, const std::string& name) : fields_(fields), name_(name) {}
 
   [[noreturn]] void refuse(std::string_view field, std::string_view why) const {
     throw std::invalid_argument(fmt::format("{}: {}: {}", name_, field, why));
@@ -74,8 +73,7 @@ class Reader {
 
   double scalar(const std::string& field) const {
     const NumberArray& array = get(field);
-    if (array.values.size() != 1)
-      refuse(field, fmt::format("must be one number, got {}", array.values.size()));
+    if (array.values.size() != 1) refuse(field, fmt::format("must be one number, got {}", array.values.size()));
     return array.values[0];
   }
 
@@ -86,8 +84,8 @@ class Reader {
     if (rows > 1) expected.insert(expected.begin(), rows);
     if (columns == 0 && array.shape.size() == expected.size()) expected.back() = array.shape.back();
     if (array.shape != expected) {
-      refuse(field, fmt::format("must have shape ({}), got ({})", fmt::join(expected, ", "),
-                                fmt::join(array.shape, ", ")));
+      refuse(field,
+             fmt::format("must have shape ({}), got ({})", fmt::join(expected, ", "), fmt::join(array.shape, ", ")));
     }
     return array.values;
   }
@@ -123,12 +121,11 @@ Parameters read_parameters(const Reader& reader, const std::string& name, std::s
   return parameters;
 }
 
-void require_finite(const Reader& reader, const char* field, const std::vector<double>& values,
-                    std::size_t columns) {
+void require_finite(const Reader& reader, const char* field, const std::vector<double>& values, std::size_t columns) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
-    reader.refuse(field, fmt::format("must be finite, got {} in row {}, column {}", values[i], i / columns,
-                                     i % columns));
+    reader.refuse(field,
+                  fmt::format("must be finite, got {} in row {}, column {}", values[i], i / columns, i % columns));
   }
 }
 
@@ -151,8 +148,7 @@ std::vector<StepRecord> read_steps(const Reader& reader, std::size_t columns) {
     // The numbers of a failed step mean nothing and may be anything.
     if (step.status == LcpStatus::solved &&
         !(std::isfinite(step.gap) && all_finite(step.z) && std::isfinite(step.residual))) {
-      reader.refuse("gap, z, residual",
-                    fmt::format("must be finite where the status is solved, column {}", k));
+      reader.refuse("gap, z, residual", fmt::format("must be finite where the status is solved, column {}", k));
     }
   }
   return steps;
@@ -170,9 +166,9 @@ void check_record(const Record& record) {
   }
   if (record.trajectory.q.size() != 3 * columns || record.trajectory.v.size() != 3 * columns ||
       record.steps.size() != columns) {
-    throw std::invalid_argument(
-        fmt::format("record: q and v must have 3 x {} values and steps {}, got {}, {} and {}", columns,
-                    columns, record.trajectory.q.size(), record.trajectory.v.size(), record.steps.size()));
+    throw std::invalid_argument(fmt::format("record: q and v must have 3 x {} values and steps {}, got {}, {} and {}",
+                                            columns, columns, record.trajectory.q.size(), record.trajectory.v.size(),
+                                            record.steps.size()));
   }
 }
 
@@ -204,10 +200,7 @@ std::vector<Field> to_fields(const Record& record) {
       {"corner", "", {T}, collect<std::int32_t>(record, [&](int k) { return at(k).corner; })},
       {"z", "N, N, N, m/s", {4, T}, std::move(z)},
       {"mode", "", {T}, collect<std::int32_t>(record, [&](int k) { return static_cast<int>(at(k).mode); })},
-      {"status",
-       "",
-       {T},
-       collect<std::int32_t>(record, [&](int k) { return static_cast<int>(at(k).status); })},
+      {"status", "", {T}, collect<std::int32_t>(record, [&](int k) { return static_cast<int>(at(k).status); })},
       {"residual", "", {T}, collect<double>(record, [&](int k) { return at(k).residual; })},
       {"kinetic", "J", {T}, collect<double>(record, [&](int k) { return kinetic_at(record, k); })},
       {"potential", "J", {T}, collect<double>(record, [&](int k) { return potential_at(record, k); })},
@@ -228,9 +221,7 @@ std::vector<std::string> field_names_read() {
   return names;
 }
 
-std::size_t max_values_read() {
-  return 4 * static_cast<std::size_t>(drop::k_max_columns);
-}
+std::size_t max_values_read() { return 4 * static_cast<std::size_t>(drop::k_max_columns); }
 
 Record from_fields(const std::map<std::string, NumberArray>& fields, const std::string& name) {
   const Reader reader(fields, name);
@@ -253,8 +244,7 @@ Record from_fields(const std::map<std::string, NumberArray>& fields, const std::
     const int code = reader.code("trajectory_status", reader.scalar("trajectory_status"), k_status_count);
     record.trajectory.status = static_cast<LcpStatus>(code);
   }
-  if (std::all_of(k_step_fields.begin(), k_step_fields.end(),
-                  [&](const char* field) { return reader.has(field); })) {
+  if (std::all_of(k_step_fields.begin(), k_step_fields.end(), [&](const char* field) { return reader.has(field); })) {
     record.steps = read_steps(reader, columns);
     return record;
   }

@@ -94,9 +94,7 @@ Scene make_scene(const drop::Record& record, const View& view) {
 constexpr SquareStyle k_start_style = {k_paper.with_opacity(0.6), {k_body, 1.4, 5.0, 3.5}, k_body};
 constexpr SquareStyle k_end_style = {{0.62, 0.73, 0.85}, {k_body, 1.9}, k_body};
 
-Colour colour_at(double share) {
-  return mix(k_body_early, k_body, share);
-}
+Colour colour_at(double share) { return mix(k_body_early, k_body, share); }
 
 void draw_pose(Canvas& canvas, const Scene& scene, int column, const SquareStyle& style) {
   draw_square(canvas, scene.view, scene.record.trajectory.q_at(column), scene.record.parameters, style);
@@ -174,8 +172,7 @@ void draw_numbers(Canvas& canvas, const Scene& scene) {
     const Colour colour = colour_of(scene.impacts[i].mode);
     canvas.draw_disc(centre, k_radius, k_paper);
     canvas.draw_circle(centre, k_radius, {colour, 1.4});
-    canvas.draw_text({centre.x, centre.y + 4.1}, fmt::format("{}", i + 1),
-                     {11.5, colour, Align::centre, true});
+    canvas.draw_text({centre.x, centre.y + 4.1}, fmt::format("{}", i + 1), {11.5, colour, Align::centre, true});
   }
 }
 
@@ -223,8 +220,7 @@ class Panel {
   // right.
   void cells(const std::vector<std::pair<double, std::string>>& texts, const Colour& colour, Align align) {
     y_ += 17.5;
-    for (const auto& [x, text] : texts)
-      canvas_.draw_text({frame_.left + x, y_}, text, {k_text - 0.5, colour, align});
+    for (const auto& [x, text] : texts) canvas_.draw_text({frame_.left + x, y_}, text, {k_text - 0.5, colour, align});
   }
 
   double baseline() const { return y_; }
@@ -269,8 +265,8 @@ void draw_impulse_legend(Canvas& canvas, Panel& panel, const Scene& scene) {
     panel.cells({{0.0, "no contact in this run"}}, k_muted, Align::left);
     return;
   }
-  const Impulse sample{0, 0.0, round_down_nicely(0.45 * scene.largest),
-                       round_down_nicely(0.45 * scene.largest), ContactMode::open};
+  const Impulse sample{0, 0.0, round_down_nicely(0.45 * scene.largest), round_down_nicely(0.45 * scene.largest),
+                       ContactMode::open};
   const double length = arrow_length(scene, sample);
   panel.skip(6.0);
   const double y = panel.baseline() + 8.0;
@@ -299,8 +295,8 @@ void draw_impact_table(Canvas& canvas, Panel& panel, const Scene& scene) {
   };
   panel.heading("Impacts");
   if (scene.impacts.size() < all) {
-    panel.cells({{0.0, fmt::format("the {} largest of {} contact steps", scene.impacts.size(), all)}},
-                k_muted, Align::left);
+    panel.cells({{0.0, fmt::format("the {} largest of {} contact steps", scene.impacts.size(), all)}}, k_muted,
+                Align::left);
   }
   panel.cells({{74.0, "t [s]"}, {168.0, "impulse [N s]"}}, k_muted, Align::right);
   for (std::size_t i = 0; i < scene.impacts.size() && panel.has_room(k_row); ++i) {
@@ -309,8 +305,7 @@ void draw_impact_table(Canvas& canvas, Panel& panel, const Scene& scene) {
                 Align::right);
     const Colour colour = colour_of(impact.mode);
     const double baseline = panel.baseline();
-    canvas.draw_text({panel.left(), baseline}, fmt::format("{}", i + 1),
-                     {k_text - 0.5, colour, Align::left, true});
+    canvas.draw_text({panel.left(), baseline}, fmt::format("{}", i + 1), {k_text - 0.5, colour, Align::left, true});
     canvas.draw_text({panel.left() + 180.0, baseline}, to_string(impact.mode), {k_text - 0.5, colour});
   }
 }

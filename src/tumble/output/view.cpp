@@ -17,8 +17,7 @@ constexpr double k_smallest_side = 1e-100;
 // The ground is part of the picture while it is no farther below the path than this many times the path's own
 // size.
 constexpr double k_ground_reach = 2.0;
-constexpr double k_smallest_size =
-    4.0;  // of the picture, in sides of the square: room around a square at rest
+constexpr double k_smallest_size = 4.0;  // of the picture, in sides of the square: room around a square at rest
 
 // Labels with more digits than this are told relative to the middle.
 constexpr double k_longest_label = 1e4;
@@ -45,8 +44,8 @@ Axis make_axis(const AxisRange& range, int count, Place place) {
   for (double i = first; i <= last; i += 1.0) {
     // 0.0 + turns -0 into 0.
     const double value = 0.0 + i * step;
-    axis.ticks.push_back({place(shift + value),
-                          is_plain ? fmt::format("{:.{}f}", value, decimals) : fmt::format("{:.6g}", value)});
+    axis.ticks.push_back(
+        {place(shift + value), is_plain ? fmt::format("{:.{}f}", value, decimals) : fmt::format("{:.6g}", value)});
   }
   axis.unit = is_far ? fmt::format("m from {:.12g} m", base) : "m";
   return axis;
@@ -80,8 +79,8 @@ Box box_of(const drop::Record& record) {
   for (const double value : {*x_low, *x_high, *y_low, *y_high, l}) {
     if (std::abs(value) <= k_largest && l >= k_smallest_side) continue;
     throw std::invalid_argument(
-        fmt::format("picture: positions must lie in [-{0:g}, {0:g}] m and l in [{1:g}, {0:g}] m, got {2:g}",
-                    k_largest, k_smallest_side, std::abs(value) <= k_largest ? l : value));
+        fmt::format("picture: positions must lie in [-{0:g}, {0:g}] m and l in [{1:g}, {0:g}] m, got {2:g}", k_largest,
+                    k_smallest_side, std::abs(value) <= k_largest ? l : value));
   }
   const double radius = l * std::sqrt(0.5);  // the square turns within this circle
   Box box{*x_low - radius, *x_high + radius, *y_low - radius, *y_high + radius, false};

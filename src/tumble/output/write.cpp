@@ -65,8 +65,8 @@ Format format_of(const std::filesystem::path& path, const WriteOptions& options)
   if (!options.format.empty()) {
     const NamedFormat* found = find_format(options.format);
     if (found != nullptr) return found->format;
-    throw std::invalid_argument(fmt::format(
-        "format: must be one of csv, npz, h5, gif, mp4, png, svg, got '{}'", path_text(options.format)));
+    throw std::invalid_argument(
+        fmt::format("format: must be one of csv, npz, h5, gif, mp4, png, svg, got '{}'", path_text(options.format)));
   }
   const NamedFormat* found = find_format(ending_of(path));
   if (found != nullptr) return found->format;
@@ -84,9 +84,7 @@ void check_size(const char* field, int value) {
 Size animation_size(const WriteOptions& options, const Size& usual) {
   Size size{options.width, options.height};
   if (size.width == 0 && size.height == 0) return usual;
-  const auto clamp = [](int value) {
-    return std::clamp(value / 2 * 2, k_smallest_picture, k_largest_picture);
-  };
+  const auto clamp = [](int value) { return std::clamp(value / 2 * 2, k_smallest_picture, k_largest_picture); };
   if (size.width == 0) size.width = clamp(size.height * usual.width / usual.height);
   if (size.height == 0) size.height = clamp(size.width * usual.height / usual.width);
   return size;
@@ -110,8 +108,7 @@ void check_options(const std::filesystem::path& path, const WriteOptions& option
     }
   }
   if (is_direct_target(path)) {
-    throw std::invalid_argument(
-        fmt::format("{}: an .mp4 can only be written to a regular file", path_text(path)));
+    throw std::invalid_argument(fmt::format("{}: an .mp4 can only be written to a regular file", path_text(path)));
   }
 }
 
@@ -132,19 +129,13 @@ void write_csv(const drop::Record& record, OutputFile& file) {
 std::string to_bytes(const drop::Record& record, const WriteOptions& options, Format format) {
   const Size gif = animation_size(options, Format::gif);
   switch (format) {
-    case Format::npz:
-      return to_npz(record);
-    case Format::h5:
-      return to_hdf5(record);
-    case Format::gif:
-      return to_gif(record, gif.width, gif.height, options.speed);
-    case Format::png:
-      return to_strobe_png(record, options.width, options.height);
-    case Format::svg:
-      return to_strobe_svg(record, options.width, options.height);
+    case Format::npz: return to_npz(record);
+    case Format::h5: return to_hdf5(record);
+    case Format::gif: return to_gif(record, gif.width, gif.height, options.speed);
+    case Format::png: return to_strobe_png(record, options.width, options.height);
+    case Format::svg: return to_strobe_svg(record, options.width, options.height);
     case Format::csv:
-    case Format::mp4:
-      break;
+    case Format::mp4: break;
   }
   return "";
 }
@@ -163,8 +154,7 @@ void check_writable(const std::filesystem::path& path, const WriteOptions& optio
   check_length(options, format_of(path, options), parameters.columns, parameters.dt);
 }
 
-void write_record(const drop::Record& record, const std::filesystem::path& path,
-                  const WriteOptions& options) {
+void write_record(const drop::Record& record, const std::filesystem::path& path, const WriteOptions& options) {
   check_record(record);
   check_writable(path, options);
   const Format format = format_of(path, options);

@@ -11,9 +11,9 @@ namespace tumble::output {
 struct WriteOptions {
   bool overwrite = false;
   std::string format{};  // csv, npz, h5, gif, mp4, png or svg; empty: by the ending of the name
-  int width = 0;   // of a picture [px]; 0: chosen for the format, for png and svg by the shape of the path
-  int height = 0;  // [px]
-  double speed = 1.0;  // of an animation: seconds of the motion per second of the film, > 0
+  int width = 0;         // of a picture [px]; 0: chosen for the format, for png and svg by the shape of the path
+  int height = 0;        // [px]
+  double speed = 1.0;    // of an animation: seconds of the motion per second of the film, > 0
 };
 
 // What can be said before a simulation: format and sizes are allowed, the folder exists and is writable, no
@@ -22,13 +22,11 @@ struct WriteOptions {
 void check_writable(const std::filesystem::path& path, const WriteOptions& options = {});
 
 // As above, and that an animation of so many columns is not too long.
-void check_writable(const std::filesystem::path& path, const WriteOptions& options,
-                    const drop::Parameters& parameters);
+void check_writable(const std::filesystem::path& path, const WriteOptions& options, const drop::Parameters& parameters);
 
 // Writes all or nothing. Throws as check_writable, and std::runtime_error "path: reason" if the writing
 // itself fails.
-void write_record(const drop::Record& record, const std::filesystem::path& path,
-                  const WriteOptions& options = {});
+void write_record(const drop::Record& record, const std::filesystem::path& path, const WriteOptions& options = {});
 
 // Reads a .csv, .npz or .h5 file that write_record wrote, to the same bits; see parse_record_npz for files of
 // numpy. Throws std::invalid_argument with the place of the fault, std::system_error if the file cannot be

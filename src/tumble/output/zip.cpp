@@ -27,7 +27,7 @@ constexpr std::uint16_t k_deflated = 8;
 constexpr std::uint16_t k_encrypted_flag = 1;
 constexpr std::uint16_t k_version = 20;      // 2.0: deflate
 constexpr std::uint16_t k_first_day = 0x21;  // 1980-01-01
-constexpr int k_level = 1;  // of states: 6 takes three times as long and saves half a percent
+constexpr int k_level = 1;                   // of states: 6 takes three times as long and saves half a percent
 constexpr int k_raw_deflate = -MAX_WBITS;
 constexpr std::size_t k_max_ratio = 1032;  // deflate makes at most 258 bytes out of 2 bits
 
@@ -54,14 +54,11 @@ std::uint32_t crc_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-Bytef* byte_pointer(const char* data) {
-  return reinterpret_cast<Bytef*>(const_cast<char*>(data));
-}
+Bytef* byte_pointer(const char* data) { return reinterpret_cast<Bytef*>(const_cast<char*>(data)); }
 
 std::string deflate_bytes(std::string_view bytes) {
   z_stream stream{};
-  if (deflateInit2(&stream, k_level, Z_DEFLATED, k_raw_deflate, 8, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw std::bad_alloc();
+  if (deflateInit2(&stream, k_level, Z_DEFLATED, k_raw_deflate, 8, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
   std::string compressed(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
   stream.next_in = byte_pointer(bytes.data());
   stream.avail_in = static_cast<uInt>(bytes.size());
@@ -95,8 +92,7 @@ std::size_t find_end_record(std::string_view archive, const std::string& name) {
     const std::size_t latest = archive.size() - k_end_bytes;
     for (std::size_t comment = 0; comment <= std::min(latest, k_max_comment); ++comment) {
       const std::size_t at = latest - comment;
-      if (get<std::uint32_t>(archive, at) == k_end_signature &&
-          get<std::uint16_t>(archive, at + 20) == comment) {
+      if (get<std::uint32_t>(archive, at) == k_end_signature && get<std::uint16_t>(archive, at + 20) == comment) {
         return at;
       }
     }
@@ -105,14 +101,13 @@ std::size_t find_end_record(std::string_view archive, const std::string& name) {
 }
 
 // The bytes of the entry, found through its local header.
-std::string_view entry_bytes(std::string_view archive, std::size_t offset, std::size_t size,
-                             const std::string& name) {
+std::string_view entry_bytes(std::string_view archive, std::size_t offset, std::size_t size, const std::string& name) {
   if (offset > archive.size() || archive.size() - offset < k_local_bytes ||
       get<std::uint32_t>(archive, offset) != k_local_signature) {
     refuse(name, fmt::format("the zip directory points to byte {}, where no entry is", offset));
   }
-  const std::size_t start = offset + k_local_bytes + get<std::uint16_t>(archive, offset + 26) +
-                            get<std::uint16_t>(archive, offset + 28);
+  const std::size_t start =
+      offset + k_local_bytes + get<std::uint16_t>(archive, offset + 26) + get<std::uint16_t>(archive, offset + 28);
   if (start > archive.size() || archive.size() - start < size) {
     refuse(name, fmt::format("the zip entry at byte {} reaches over the end of the file", offset));
   }
@@ -175,14 +170,12 @@ std::vector<ZipEntry> read_zip_directory(std::string_view archive, const std::st
   const std::size_t count = get<std::uint16_t>(archive, end + 10);
   const std::size_t size = get<std::uint32_t>(archive, end + 12);
   const std::size_t start = get<std::uint32_t>(archive, end + 16);
-  if (start > end || end - start < size)
-    refuse(name, "the zip directory lies outside the file; was it cut off?");
+  if (start > end || end - start < size) refuse(name, "the zip directory lies outside the file; was it cut off?");
   const std::string_view directory = archive.substr(start, size);
   std::vector<ZipEntry> entries;
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (directory.size() - at < k_directory_bytes ||
-        get<std::uint32_t>(directory, at) != k_directory_signature) {
+    if (directory.size() - at < k_directory_bytes || get<std::uint32_t>(directory, at) != k_directory_signature) {
       refuse(name, fmt::format("the zip directory announces {} entries and has {}", count, i));
     }
     const std::size_t name_size = get<std::uint16_t>(directory, at + 28);
@@ -195,8 +188,8 @@ std::vector<ZipEntry> read_zip_directory(std::string_view archive, const std::st
     entry.method = get<std::uint16_t>(directory, at + 10);
     entry.crc = get<std::uint32_t>(directory, at + 16);
     entry.size = get<std::uint32_t>(directory, at + 24);
-    entry.compressed = entry_bytes(archive, get<std::uint32_t>(directory, at + 42),
-                                   get<std::uint32_t>(directory, at + 20), name);
+    entry.compressed =
+        entry_bytes(archive, get<std::uint32_t>(directory, at + 42), get<std::uint32_t>(directory, at + 20), name);
     entries.push_back(entry);
     at += k_directory_bytes + skipped;
   }
@@ -205,20 +198,17 @@ std::vector<ZipEntry> read_zip_directory(std::string_view archive, const std::st
 
 std::string extract(const ZipEntry& entry, std::size_t max_bytes, const std::string& name) {
   const std::string place = fmt::format("{}: {}", name, path_text(entry.name.substr(0, 60)));
-  if (entry.size > max_bytes)
-    refuse(place, fmt::format("has {} bytes, at most {} are read", entry.size, max_bytes));
+  if (entry.size > max_bytes) refuse(place, fmt::format("has {} bytes, at most {} are read", entry.size, max_bytes));
   std::string content;
   if (entry.method == k_stored) {
     if (entry.compressed.size() != entry.size) refuse(place, "the sizes of the stored entry disagree");
     content = entry.compressed;
   } else if (entry.method == k_deflated) {
-    if (entry.size / k_max_ratio > entry.compressed.size())
-      refuse(place, "announces more bytes than it can hold");
+    if (entry.size / k_max_ratio > entry.compressed.size()) refuse(place, "announces more bytes than it can hold");
     content.resize(entry.size);
     if (!inflate_bytes(entry.compressed, content)) refuse(place, "its compressed bytes are broken");
   } else {
-    refuse(place,
-           fmt::format("is packed by method {}, only 0 (stored) and 8 (deflated) are read", entry.method));
+    refuse(place, fmt::format("is packed by method {}, only 0 (stored) and 8 (deflated) are read", entry.method));
   }
   if (crc_of(content) != entry.crc) refuse(place, "its bytes are damaged: the CRC differs");
   return content;
