@@ -1,7 +1,8 @@
 # The front door. Every target installs what it misses (scripts/deps.sh names it first) and builds what it needs.
 # Everything made here is in build/, build-*/ and out/.
 
-PYTHON := $(shell command -pv python3)
+# The system's python3, whatever comes first on PATH; the fallback is where it will be once installed.
+PYTHON := $(shell command -pv python3 || echo /usr/bin/python3)
 BUILD := build
 CMAKE := cmake -S . -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 QUIET_BUILD := cmake --build

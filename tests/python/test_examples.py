@@ -1,4 +1,4 @@
-"""Examples: each C++ program and its Python twin print the same. Documentation and includes: the checks find no fault."""
+"""Examples print the same from C++ and Python; the checks of includes and documentation find no fault."""
 
 import os
 import subprocess
