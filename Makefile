@@ -5,12 +5,11 @@
 PYTHON := $(shell command -pv python3 || echo /usr/bin/python3)
 BUILD := build
 CMAKE := cmake -S . -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
-QUIET_BUILD := cmake --build
 
 .PHONY: all run test bench fuzz sanitize install clean help deps-build deps-python configure
 
 all: configure ## build the library, the program and the Python package
-	@$(QUIET_BUILD) $(BUILD)
+	@cmake --build $(BUILD)
 	@echo "built $(BUILD)/bin/tumble and the Python package in $(BUILD)/python"
 
 help: ## this list
@@ -29,7 +28,7 @@ configure: deps-python
 
 run: deps-build ## simulate the course's start; writes out/drop.csv, out/drop.gif, out/drop.png
 	@test -f $(BUILD)/build.ninja || $(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=OFF >/dev/null
-	@$(QUIET_BUILD) $(BUILD) --target tumble_cli
+	@cmake --build $(BUILD) --target tumble_cli
 	@mkdir -p out
 	@$(BUILD)/bin/tumble drop --force -o out/drop.csv -o out/drop.gif -o out/drop.png
 	@echo
@@ -41,13 +40,13 @@ run: deps-build ## simulate the course's start; writes out/drop.csv, out/drop.gi
 test: ## all tests; the last line is "N passed, N failed"
 	@scripts/deps.sh build python test
 	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_TESTS=ON -DTUMBLE_WERROR=ON >/dev/null
-	@$(QUIET_BUILD) $(BUILD)
+	@cmake --build $(BUILD)
 	@$(PYTHON) scripts/run_tests.py --build $(BUILD)
 
 bench: ## benchmarks; writes out/bench.md
 	@scripts/deps.sh build python bench
 	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_BENCHMARKS=ON >/dev/null
-	@$(QUIET_BUILD) $(BUILD)
+	@cmake --build $(BUILD)
 	@mkdir -p out
 	@$(PYTHON) benchmarks/run.py --build $(BUILD) --output out/bench.md
 
@@ -56,18 +55,18 @@ fuzz: ## libFuzzer on every loader, TIME seconds each (default 60)
 	@scripts/deps.sh build fuzz
 	@$(CMAKE) -B build-fuzz -DCMAKE_CXX_COMPILER=clang++-14 -DTUMBLE_BUILD_FUZZERS=ON -DTUMBLE_BUILD_CLI=OFF \
 	  -DTUMBLE_BUILD_PYTHON=OFF >/dev/null
-	@$(QUIET_BUILD) build-fuzz
+	@cmake --build build-fuzz
 	@scripts/fuzz.sh build-fuzz $(TIME)
 
 sanitize: ## the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@scripts/deps.sh build test
 	@$(CMAKE) -B build-sanitize -DTUMBLE_SANITIZE=ON -DTUMBLE_BUILD_TESTS=ON -DTUMBLE_BUILD_PYTHON=OFF >/dev/null
-	@$(QUIET_BUILD) build-sanitize
+	@cmake --build build-sanitize
 	@ctest --test-dir build-sanitize --output-on-failure -j 2
 
 PREFIX ?= /usr/local
 install: configure ## install to PREFIX (default /usr/local)
-	@$(QUIET_BUILD) $(BUILD)
+	@cmake --build $(BUILD)
 	@cmake --install $(BUILD) --prefix $(PREFIX)
 
 clean: ## remove everything that was made

@@ -76,7 +76,7 @@ def test_without_a_display_the_user_gets_a_file_and_is_told(tmp_path: Path) -> N
     environment = {"PYTHONPATH": str(Path(drop.__file__).parents[1]), "PATH": "/usr/bin:/bin", "HOME": str(tmp_path / "home")}
     run = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
-    assert "no display: the animation was saved as render.gif" in run.stdout and "render-2.gif" in run.stdout
+    assert "no window to show it in: the animation was saved as render.gif" in run.stdout and "render-2.gif" in run.stdout
     assert (tmp_path / "render.gif").stat().st_size > 1000
 
 

@@ -64,7 +64,7 @@ def render(
         return html
     if not _has_window():
         path = _save(poses, params, _free_name(Path("render.gif")))
-        print(f"no display: the animation was saved as {path}")
+        print(f"no window to show it in: the animation was saved as {path}")
         return path
     import matplotlib.pyplot as plt
 
