@@ -1,9 +1,9 @@
 // Drops the square from the course's start and prints its impacts. Twin: drop.py.
+#include "tumble/drop/drop.hpp"
+
 #include <cstdio>
 #include <numbers>
 #include <string>
-
-#include "tumble/drop/drop.hpp"
 
 int main() {
   const tumble::drop::Record record =

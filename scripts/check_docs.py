@@ -3,8 +3,8 @@
 
 - Repository paths in backticks in ARCHITECTURE.md, CONTRIBUTING.md and README.md exist.
 - Every relative link of every *.md resolves.
-- In README.md and docs/**/*.md, every ```python block runs (as doctest if it starts with ">>>"), every ```cpp block
-  with a main() compiles and runs, every ```sh block behind a line `<!-- run -->` runs; each in an empty folder.
+- In README.md and docs/**/*.md every ```python block runs (as doctest if it starts with ">>>"), every ```cpp block
+  with a main() compiles and runs, every ```sh block behind `<!-- run -->` runs, each in an empty folder.
 
 Prints one line "file:line: what is wrong" for each fault and exits with 1 if there is one.
 """
@@ -82,9 +82,7 @@ def missing_path(word: str) -> bool:
 
 def broken_link(file: Path, target: str) -> bool:
     """True if a relative link leads nowhere."""
-    if re.match(r"^[a-z]+:", target) or target.startswith("#"):
-        return False
-    return not (file.parent / target.split("#")[0]).exists()
+    return not re.match(r"^([a-z]+:|#)", target) and not (file.parent / target.split("#")[0]).exists()
 
 
 def commands_of(block: Block, folder: Path, build: Path) -> list[list[str]]:
@@ -103,8 +101,8 @@ def commands_of(block: Block, folder: Path, build: Path) -> list[list[str]]:
 
 def failure_of(block: Block, build: Path) -> str | None:
     """Runs the block; what went wrong, or None."""
-    environment = {**os.environ, "PYTHONPATH": str(build / "python"), "MPLBACKEND": "Agg",
-                   "PATH": f"{build / 'bin'}{os.pathsep}{os.environ['PATH']}"}
+    programs = os.pathsep.join([str(build / "bin"), str(Path(sys.executable).parent), os.environ["PATH"]])
+    environment = {**os.environ, "PYTHONPATH": str(build / "python"), "MPLBACKEND": "Agg", "PATH": programs}
     with tempfile.TemporaryDirectory() as folder:
         for command in commands_of(block, Path(folder), build):
             try:

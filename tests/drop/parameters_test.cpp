@@ -55,6 +55,7 @@ TEST(Parameters, NameFieldRangeAndValueOfWhatIsWrong) {
     EXPECT_NE(error_of({.g = bad}), "");
   }
   EXPECT_NE(error_of({.l = 1e-200}), "") << "the moment of inertia would be 0";
+  EXPECT_NE(error_of({.l = 1e200, .m = 1e-250}), "") << "l^2 is beyond double, although m l^2 is not";
 }
 
 TEST(Parameters, AreCheckedByEveryFunction) {

@@ -31,7 +31,7 @@ class Result:
         "solved"; "no_solution_proved" (every complementary basis was tried); "ray_unproven" (Lemke ended on a ray: none
         found, none excluded); "iteration_limit"; "numerical" (the residual is above the accepted bound).
     z, w : ndarray, shape (n,)
-        The solution and M z + q; the best candidate if the status is not "solved".
+        The solution and M z + q; if the status is not "solved", the best candidate met, or 0.
     residual : float
         How far z is from solving the problem, without unit: see `residual`. Recomputed from M and q.
     pivots : int
@@ -123,7 +123,10 @@ def all_solutions(M: ArrayLike, q: ArrayLike, accepted_residual: float = 1e-9) -
 
 
 def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike) -> Residual:
-    """How far z is from solving the LCP (M, q), independent of the units of its rows and columns.
+    """How far z is from solving the LCP (M, q), without unit.
+
+    It judges each row by its terms and by a typical size derived from the diagonal of M and the largest |q| around. A
+    change of the units of mass, length and time changes it by no more than the rounding of that size to a power of two.
 
     Parameters
     ----------

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -18,8 +17,7 @@ namespace {
 struct Model {
   explicit Model(const Parameters& p) : parameters(p) {
     validate(p);
-    const double moment_of_inertia = p.m * (p.l * p.l / 6.0);
-    M_inverse = {1.0 / p.m, 1.0 / p.m, 1.0 / moment_of_inertia};
+    M_inverse = {1.0 / p.m, 1.0 / p.m, 1.0 / moment_of_inertia(p)};
   }
 
   Parameters parameters;
@@ -39,7 +37,7 @@ double inner(const Vector3& a, const Vector3& M_inverse, const Vector3& b) {
   return a[0] * (M_inverse[0] * b[0]) + a[1] * (M_inverse[1] * b[1]) + a[2] * (M_inverse[2] * b[2]);
 }
 
-// ---- Part 1 ----
+// ---- What part 1 is made of ----
 
 // Corner minus centre of mass, world frame [m].
 struct Arm {
@@ -75,7 +73,7 @@ inline LowestCorner find_contact(const Vector3& q, double l) {
   return {{{{1.0, 0.0, -r.y}, {0.0, 1.0, r.x}}, q[1] + r.y}, corner};
 }
 
-// ---- Part 2 ----
+// ---- What part 2 is made of ----
 
 Lcp form_lcp(const Jacobian& J, const Vector3& v, const Model& model) {
   const auto& [l, m, mu, eps, dt, delta, g, columns] = model.parameters;
@@ -107,7 +105,7 @@ bool has_contact_structure(const Lcp& lcp) {
   return c.A_nn > 0.0 && c.A_tt > 0.0 && c.A_nn * c.A_tt > c.A_nt * c.A_nt && c.friction >= 0.0;
 }
 
-// ---- Part 3 ----
+// ---- What part 3 is made of ----
 
 // v' = v + dt M^-1 (all forces),  q' = q + dt v' + (0, lift, 0), in place. False if a number left the range of double.
 inline bool integrate(State& state, const Vector3& acceleration, double lift, double dt) {
@@ -142,7 +140,7 @@ inline bool integrate(State& state, const Vector3& acceleration, double lift, do
   if (!integrate(state, acceleration, lift, p.dt)) record.status = LcpStatus::numerical;
 }
 
-// ---- Part 4 ----
+// ---- What part 4 is made of ----
 
 // Drops the columns from `columns` on.
 void keep_columns(std::vector<double>& rows, std::size_t stride, std::size_t columns) {
@@ -283,7 +281,7 @@ Record simulate_with_record(const Vector3& q0, const Vector3& v0, const Paramete
 }
 
 double kinetic_energy(const Vector3& v, const Parameters& p) {
-  return 0.5 * (p.m * (v[0] * v[0] + v[1] * v[1]) + p.m * (p.l * p.l / 6.0) * (v[2] * v[2]));
+  return 0.5 * (p.m * (v[0] * v[0] + v[1] * v[1]) + moment_of_inertia(p) * (v[2] * v[2]));
 }
 
 double potential_energy(const Vector3& q, const Parameters& p) { return p.m * p.g * q[1]; }

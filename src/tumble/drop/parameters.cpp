@@ -17,6 +17,8 @@ bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 }  // namespace
 
+double moment_of_inertia(const Parameters& p) { return p.m * (p.l * p.l / 6.0); }
+
 void validate(const Parameters& p) {
   require(is_positive(p.l), "l", "finite and > 0", p.l, "m");
   require(is_positive(p.m), "m", "finite and > 0", p.m, "kg");
@@ -28,9 +30,9 @@ void validate(const Parameters& p) {
   if (p.columns < 1 || p.columns > k_max_columns) {
     throw std::invalid_argument(fmt::format("columns: must be in [1, {}], got {}", k_max_columns, p.columns));
   }
-  const double moment_of_inertia = p.m * p.l * p.l / 6.0;
-  require(moment_of_inertia > 1e-300 && moment_of_inertia < 1e300 && p.m > 1e-300 && p.m < 1e300, "m, l",
-          "such that m and the moment of inertia m l^2 / 6 lie in (1e-300, 1e300)", moment_of_inertia, "kg m^2");
+  const double inertia = moment_of_inertia(p);
+  require(inertia > 1e-300 && inertia < 1e300 && p.m > 1e-300 && p.m < 1e300, "m, l",
+          "such that m and the moment of inertia m l^2 / 6 lie in (1e-300, 1e300)", inertia, "kg m^2");
 }
 
 }  // namespace tumble::drop

@@ -16,6 +16,9 @@ struct Parameters {
   bool operator==(const Parameters&) const = default;
 };
 
+// m l^2 / 6 [kg m^2], about the centre of mass.
+double moment_of_inertia(const Parameters& parameters);
+
 inline constexpr int k_max_columns = 10'000'000;
 
 // Throws std::invalid_argument naming field, value, unit and allowed range. Sizes so far apart that the moment of

@@ -21,7 +21,7 @@ struct Equilibration {
 };
 
 // Jacobi's scaling. A row without a diagonal entry (the friction cones of contacts) is scaled by its largest entry
-// whose partner is scaled already. For a positive semidefinite M no scaled entry exceeds 2.
+// whose partner is scaled already. For a positive semidefinite M no scaled entry exceeds 4.
 Equilibration equilibrate(const LcpProblem& problem);
 
 // The largest |q_k| 2^row[k] of each block (2 n values), the size of what is to be solved there.

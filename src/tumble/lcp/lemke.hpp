@@ -12,9 +12,9 @@ struct LemkeSettings {
   double accepted_residual = 1e-8;  // [-] > 0: `solved` means a residual no larger than this
 };
 
-// One solution of the problem, if Lemke finds it: guaranteed (up to rounding) for copositive-plus M and for the
-// contact problems of this library, not for every M. For any n; about n pivots of n^2 operations each.
-// Whatever way the pivots end, the z they leave is solved for anew from its basis and judged by `residual`.
+// One solution of the problem, if Lemke finds it: guaranteed (up to rounding) if M is copositive-plus and the problem
+// feasible, and for the contact problems of this library, not for every M. For any n; about n pivots of n^2 operations
+// each. Whatever way the pivots end, the z they leave is solved for anew from its basis and judged by `residual`.
 // Status: solved, ray_unproven, iteration_limit or numerical.
 // Throws std::invalid_argument where `validate` does, or for a setting outside its range.
 LcpResult lemke(const LcpProblem& problem, const LemkeSettings& settings = {});

@@ -58,14 +58,11 @@ OneContactSolution choose_mode(const OneContact& c) {
     solution.mode = ContactMode::stick;
     return solution;
   }
-  // Slip in direction sigma: f_t = -sigma mu f_n, f_n = -b_n / k, slip speed (-sigma F_t - mu F_n) / k. The direction
-  // against the sticking force, unless friction would pull the contact in faster than it can be pushed out (k <= 0).
-  double sigma = F_t > 0.0 ? -1.0 : 1.0;
-  double k = c.A_nn - sigma * c.friction * c.A_nt;
-  if (k <= 0.0) {
-    sigma = -sigma;
-    k = c.A_nn - sigma * c.friction * c.A_nt;
-  }
+  // Slip in direction sigma, against the force that sticking would take: f_t = -sigma mu f_n, f_n = -b_n / k, slip
+  // speed
+  // (-sigma F_t - mu F_n) / k. Here k > 0 up to round-off, as b_n < 0 and sticking is excluded.
+  const double sigma = F_t > 0.0 ? -1.0 : 1.0;
+  const double k = c.A_nn - sigma * c.friction * c.A_nt;
   solution.f_n = -c.b_n / k;
   solution.f_t = -sigma * c.friction * solution.f_n;
   solution.slip_speed = (-sigma * F_t - cone_F_n) / k;
@@ -103,9 +100,11 @@ OneContactSolution solve_one_contact(const OneContact& contact) {
   constexpr double accepted_residual = 1e-10;  // round-off of a few operations, times the condition of A up to 1e5
   OneContactSolution solution = choose_mode(contact);
   solution.residual = one_contact_residual(contact, as_z(solution));
-  // A NaN or an infinity fails one of these, or has made the residual large.
+  // A NaN fails each comparison that it takes part in.
+  const OneContact& c = contact;
+  const bool is_contact = c.A_nn > 0.0 && c.A_nn * c.A_tt > c.A_nt * c.A_nt && c.friction >= 0.0;
   const bool is_finite = solution.f_n + std::abs(solution.f_t) + solution.slip_speed <= 1e300;
-  const bool is_solved = is_finite && solution.residual <= accepted_residual && contact.A_nn > 0.0;
+  const bool is_solved = is_contact && is_finite && solution.residual <= accepted_residual;
   solution.status = is_solved ? LcpStatus::solved : LcpStatus::numerical;
   if (!is_finite || std::isnan(solution.residual)) solution.residual = std::numeric_limits<double>::infinity();
   return solution;

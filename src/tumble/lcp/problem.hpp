@@ -10,7 +10,7 @@ struct LcpProblem {
   std::vector<double> M;  // n x n, row after row
   std::vector<double> q;  // n
 
-  // Typical size of each w_i, in its own unit (n values > 0), or empty. It tells the residual what counts as round-off
+  // Typical size of each w_i, in its own unit (n values >= 0), or empty. It tells the residual what counts as round-off
   // in a row whose terms all vanish. A contact model knows it (an approach speed, say); left empty, it is derived from
   // M and q by `typical_row_sizes`.
   std::vector<double> row_sizes;

@@ -1,5 +1,6 @@
 #include "tumble/lcp/problem_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>

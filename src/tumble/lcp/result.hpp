@@ -20,7 +20,7 @@ std::string_view to_string(LcpStatus status);
 
 struct LcpResult {
   LcpStatus status = LcpStatus::numerical;
-  std::vector<double> z;            // n; the best candidate if the status is not `solved`
+  std::vector<double> z;            // n; if the status is not `solved`, the best candidate met, or 0
   std::vector<double> w;            // n; M z + q, recomputed from the problem
   double residual = 0.0;            // [-], see `residual` in residual.hpp; recomputed from the problem
   int pivots = 0;                   // pivots made, or bases tried

@@ -157,7 +157,9 @@ NumberArray read_dataset(hid_t file, const std::string& field, const std::string
   const Handle dataset(H5Dopen2(file, field.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.is_valid()) refuse(place, "is not a dataset");
   const Handle settings(H5Dget_create_plist(dataset), H5Pclose);
-  if (!settings.is_valid() || H5Pget_external_count(settings) != 0) refuse(place, "its values lie in another file");
+  const bool is_elsewhere =
+      !settings.is_valid() || H5Pget_external_count(settings) != 0 || H5Pget_layout(settings) == H5D_VIRTUAL;
+  if (is_elsewhere) refuse(place, "its values lie in another file");
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const H5T_class_t kind = H5Tget_class(type);
   if (kind != H5T_FLOAT && kind != H5T_INTEGER) refuse(place, "must hold real or whole numbers");
