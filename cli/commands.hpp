@@ -14,6 +14,9 @@ inline constexpr int k_done = 0;
 inline constexpr int k_bad_input = 2;  // also: a file that cannot be read or written
 inline constexpr int k_numerical_failure = 3;
 
+// "tumble: <message>" on standard error; returns `exit_code`.
+int report_failure(const std::string& message, int exit_code);
+
 struct ReportOptions {
   bool json = false;   // one JSON object on standard output instead of text
   bool quiet = false;  // nothing on standard output
@@ -24,6 +27,9 @@ struct OutputOptions {
   std::vector<std::string> files;
   output::WriteOptions pictures;
 };
+
+// Throws std::invalid_argument if two of the names mean the same file.
+void require_different(const std::vector<std::string>& files);
 
 struct DropOptions {
   Vector3 q0 = {0.0, 1.5, 0.52359877559829887};  // the course's start: 30 degrees

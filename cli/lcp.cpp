@@ -16,16 +16,20 @@ int run_lcp(const LcpOptions& options) {
   std::vector<LcpResult> results;
   if (options.all) {
     results = enumerate_solutions(problem);
-  } else {
-    const LcpSettings settings = options.method == "enumerate" ? LcpSettings(EnumerateSettings{}) : LemkeSettings{};
+  }
+  if (results.empty()) {  // one solution is asked for, or there is none and its status says why
+    const LcpSettings settings =
+        options.all || options.method == "enumerate" ? LcpSettings(EnumerateSettings{}) : LemkeSettings{};
     results.push_back(solve_lcp(problem, settings));
   }
   if (!options.report.quiet) {
     fmt::print("{}",
                options.report.json ? lcp_json(problem, results, options.all) : lcp_text(problem, results, options.all));
   }
-  const bool is_solved = !results.empty() && results.front().status == LcpStatus::solved;
-  return is_solved ? k_done : k_numerical_failure;
+  const bool is_solved = results.front().status == LcpStatus::solved;
+  if (is_solved) return k_done;
+  const std::string_view status = to_string(results.front().status);
+  return report_failure(fmt::format("no solution found: status {}", status), k_numerical_failure);
 }
 
 }  // namespace tumble::cli

@@ -2,9 +2,12 @@
 // together.
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
+#include <system_error>
 
 #include "commands.hpp"
 #include "text.hpp"
@@ -93,9 +96,9 @@ void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& com
          "--steps",
          [&p](const std::string& word) {
            const int steps = whole_number("--steps", word);
-           if (steps < 0 || steps >= drop::k_max_columns) {
+           if (steps < 1 || steps >= drop::k_max_columns) {
              throw std::invalid_argument(
-                 fmt::format("--steps: must be in [0, {}], got {}", drop::k_max_columns - 1, steps));
+                 fmt::format("--steps: must be in [1, {}], got {}", drop::k_max_columns - 1, steps));
            }
            p.columns = steps + 1;
          },
@@ -135,10 +138,7 @@ void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& comma
   app.callback([&] { command = [&] { return run_lcp(options); }; });
 }
 
-int fail(const std::string& message) {
-  fmt::print(stderr, "tumble: {}\n", message);
-  return k_bad_input;
-}
+int fail(const std::string& message) { return report_failure(message, k_bad_input); }
 
 int run(int argc, char** argv) {
   CLI::App program("Tumble: rigid bodies in the plane under frictional contact.", "tumble");
@@ -171,6 +171,25 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
+
+int report_failure(const std::string& message, int exit_code) {
+  std::fflush(stdout);
+  fmt::print(stderr, "tumble: {}\n", message);
+  return exit_code;
+}
+
+void require_different(const std::vector<std::string>& files) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    std::error_code ignored;  // a path that cannot be resolved is refused with a reason when it is opened
+    const std::filesystem::path target =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+    if (!seen.insert(target.empty() ? std::filesystem::path(file) : target).second) {
+      throw std::invalid_argument(fmt::format("--output: {} is named twice", file));
+    }
+  }
+}
+
 }  // namespace tumble::cli
 
 int main(int argc, char** argv) { return tumble::cli::run(argc, argv); }

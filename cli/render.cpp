@@ -7,6 +7,7 @@ namespace tumble::cli {
 
 int run_render(const RenderOptions& options) {
   const auto& [files, pictures] = options.output;
+  require_different(files);
   for (const std::string& file : files) output::check_writable(file, pictures);
   const drop::Record record = output::read_record(options.input);
   for (const std::string& file : files) output::write_record(record, file, pictures);

@@ -74,6 +74,11 @@ Json json_of(const LcpResult& result) {
           {"residual", result.residual},        {"pivots", result.pivots}, {"basis", basis}};
 }
 
+// All results of an enumeration are solutions, unless the only one says that there is none.
+std::size_t num_solved(const std::vector<LcpResult>& results) {
+  return results.front().status == LcpStatus::solved ? results.size() : 0;
+}
+
 }  // namespace
 
 std::string drop_text(const drop::Record& record, const std::vector<std::string>& files) {
@@ -132,8 +137,8 @@ std::string drop_json(const drop::Record& record, const std::vector<std::string>
 std::string lcp_text(const LcpProblem& problem, const std::vector<LcpResult>& results, bool all) {
   std::string text;
   if (all) {
-    text = fmt::format("{} vertex solution{} of the LCP with n = {}\n", results.size(), results.size() == 1 ? "" : "s",
-                       problem.size());
+    const std::size_t count = num_solved(results);
+    text = fmt::format("{} vertex solution{} of the LCP with n = {}\n", count, count == 1 ? "" : "s", problem.size());
   }
   for (const LcpResult& result : results) {
     std::vector<std::size_t> basic;
@@ -150,8 +155,8 @@ std::string lcp_text(const LcpProblem& problem, const std::vector<LcpResult>& re
 std::string lcp_json(const LcpProblem& problem, const std::vector<LcpResult>& results, bool all) {
   if (!all) return json_of(results.front()).dump(2) + "\n";
   Json solutions = Json::array();
-  for (const LcpResult& result : results) solutions.push_back(json_of(result));
-  const Json report = {{"n", problem.size()}, {"solutions", solutions}};
+  for (std::size_t i = 0; i < num_solved(results); ++i) solutions.push_back(json_of(results[i]));
+  const Json report = {{"n", problem.size()}, {"status", to_string(results.front().status)}, {"solutions", solutions}};
   return report.dump(2) + "\n";
 }
 

@@ -14,7 +14,7 @@ namespace tumble::cli {
 std::string drop_text(const drop::Record& record, const std::vector<std::string>& files);
 std::string drop_json(const drop::Record& record, const std::vector<std::string>& files);
 
-// Solutions of an LCP; `all` says whether they are meant to be all there are.
+// At least one result; `all` says whether they are meant to be all the solutions there are.
 std::string lcp_text(const LcpProblem& problem, const std::vector<LcpResult>& results, bool all);
 std::string lcp_json(const LcpProblem& problem, const std::vector<LcpResult>& results, bool all);
 

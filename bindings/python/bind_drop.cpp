@@ -1,4 +1,8 @@
 // tumble._core: the document's drop model. Public face: tumble/drop.py.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "convert.hpp"
@@ -12,8 +16,38 @@ namespace {
 using namespace py::literals;
 using drop::Parameters;
 
-Parameters make_parameters(double l, double m, double mu, double eps, double dt, double delta, double g, int columns) {
-  const Parameters parameters{l, m, mu, eps, dt, delta, g, columns};
+std::string short_repr(const py::object& object) {
+  const std::string text = py::repr(object);
+  return text.size() <= 40 ? text : text.substr(0, 40) + "...";
+}
+
+// One line that names the field, where pybind11's own message for a wrong type fills a screen.
+double as_number(const py::object& object, const char* field) {
+  const double value = PyFloat_AsDouble(object.ptr());
+  if (value == -1.0 && PyErr_Occurred()) {
+    PyErr_Clear();
+    throw std::invalid_argument(fmt::format("{}: must be a number, got {}", field, short_repr(object)));
+  }
+  return value;
+}
+
+int as_count(const py::object& object, const char* field) {
+  const long value = PyLong_Check(object.ptr()) || PyIndex_Check(object.ptr()) ? PyLong_AsLong(object.ptr()) : -1;
+  const bool is_count = !PyErr_Occurred() && value >= 0 && value <= std::numeric_limits<int>::max();
+  PyErr_Clear();
+  if (!is_count) {
+    throw std::invalid_argument(
+        fmt::format("{}: must be a whole number in [2, {}], got {}", field, drop::k_max_columns, short_repr(object)));
+  }
+  return static_cast<int>(value);
+}
+
+Parameters make_parameters(const py::object& l, const py::object& m, const py::object& mu, const py::object& eps,
+                           const py::object& dt, const py::object& delta, const py::object& g,
+                           const py::object& columns) {
+  const Parameters parameters{as_number(l, "l"),     as_number(m, "m"),           as_number(mu, "mu"),
+                              as_number(eps, "eps"), as_number(dt, "dt"),         as_number(delta, "delta"),
+                              as_number(g, "g"),     as_count(columns, "columns")};
   validate(parameters);
   return parameters;
 }

@@ -140,8 +140,9 @@ def test_speed_stretches_the_animation(tmp_path: Path) -> None:
         (["--friction", "-0.1"], "--friction: must be finite and >= 0, got -0.1"),
         (["--delta", "-1"], "--delta: must be finite and >= 0, got -1 m"),
         (["--gravity", "inf"], "--gravity: must be a finite number, got 'inf'"),
-        (["--steps", "-1"], "--steps: must be in [0, 9999999], got -1"),
-        (["--steps", "10000000"], "--steps: must be in [0, 9999999], got 10000000"),
+        (["--steps", "0"], "--steps: must be in [1, 9999999], got 0"),
+        (["--steps", "-1"], "--steps: must be in [1, 9999999], got -1"),
+        (["--steps", "10000000"], "--steps: must be in [1, 9999999], got 10000000"),
         (["--steps", "1.5"], "--steps: must be a whole number, got '1.5'"),
         (["--q0", "1,2"], "--q0: must be three numbers a,b,c"),
         (["--q0", "1,2,3,4"], "--q0: must be three numbers a,b,c"),
@@ -174,6 +175,23 @@ def test_existing_files_are_replaced_only_by_force(tmp_path: Path) -> None:
     assert (tmp_path / "a.csv").read_text() == "precious" and not (tmp_path / "b.csv").exists()
     succeed("drop", "--force", "-o", "a.csv", cwd=tmp_path)
     assert (tmp_path / "a.csv").read_text().startswith("# tumble drop 1")
+
+
+def test_a_file_named_twice_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    assert "./a.csv is named twice" in refuse("drop", "-o", "a.csv", "-o", "./a.csv", cwd=tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_damaged_h5_is_refused(tmp_path: Path) -> None:
+    """The HDF5 library itself dies of a damaged type."""
+    succeed("drop", "-o", "a.h5", cwd=tmp_path)
+    whole = (tmp_path / "a.h5").read_bytes()
+    for place in range(96, 4000, 61):
+        damaged = bytearray(whole)
+        damaged[place] ^= 0xFF
+        (tmp_path / "b.h5").write_bytes(damaged)
+        run = tumble("render", "b.h5", "-o", "b.csv", "--force", cwd=tmp_path)
+        assert run.returncode in (0, 2) and run.stderr.count("\n") <= 1, (place, run.returncode, run.stderr)
 
 
 @pytest.mark.parametrize("name", ["a.csv", "a.npz", "a.h5", "a.png", "a.svg", "a.gif", "a.mp4"])
@@ -210,6 +228,8 @@ def test_truncated_and_foreign_files_are_refused_by_name(tmp_path: Path, ending:
 def test_a_run_beyond_double_is_a_numerical_failure(tmp_path: Path) -> None:
     run = tumble("drop", "--v0", "1e308,0,0", "--step", "1", cwd=tmp_path)
     assert run.returncode == 3 and "step 2 of 149" in run.stdout and "nan" not in run.stdout
+    run = tumble("drop", "--v0", "1e308,0,0", "--step", "1", "--quiet", cwd=tmp_path)
+    assert run.returncode == 3 and run.stdout == "" and "step 2 of 149 left the range of double" in run.stderr
 
 
 def test_lcp_solves_text(tmp_path: Path) -> None:
@@ -231,7 +251,8 @@ def test_lcp_without_solution_exits_with_3(tmp_path: Path) -> None:
     assert run.returncode == 3 and "ray_unproven" in run.stdout
     run = tumble("lcp", "-", "--method", "enumerate", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
     assert run.returncode == 3 and "no_solution_proved" in run.stdout
-    assert tumble("lcp", "-", "--all", cwd=tmp_path, stdin="M\n-1\nq\n-1\n").returncode == 3
+    run = tumble("lcp", "-", "--all", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
+    assert run.returncode == 3 and "0 vertex solutions" in run.stdout and "no_solution_proved" in run.stderr
 
 
 @pytest.mark.parametrize(

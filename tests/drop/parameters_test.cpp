@@ -32,7 +32,7 @@ TEST(Parameters, DefaultsAreTheDocuments) {
 }
 
 TEST(Parameters, TakeTheEndsOfTheirRanges) {
-  EXPECT_EQ(error_of({.mu = 0.0, .eps = 0.0, .delta = 0.0, .g = 0.0, .columns = 1}), "");
+  EXPECT_EQ(error_of({.mu = 0.0, .eps = 0.0, .delta = 0.0, .g = 0.0, .columns = 2}), "");
   EXPECT_EQ(error_of({.eps = 1.0, .g = -9.81, .columns = k_max_columns}), "");
 }
 
@@ -43,8 +43,9 @@ TEST(Parameters, NameFieldRangeAndValueOfWhatIsWrong) {
   EXPECT_EQ(error_of({.eps = 1.5}), "eps: must be in [0, 1], got 1.5");
   EXPECT_EQ(error_of({.dt = 0.0}), "dt: must be finite and > 0, got 0 s");
   EXPECT_EQ(error_of({.delta = -1e-3}), "delta: must be finite and >= 0, got -0.001 m");
-  EXPECT_EQ(error_of({.columns = 0}), "columns: must be in [1, 10000000], got 0");
-  EXPECT_EQ(error_of({.columns = k_max_columns + 1}), "columns: must be in [1, 10000000], got 10000001");
+  EXPECT_EQ(error_of({.columns = 0}), "columns: must be in [2, 10000000], got 0");
+  EXPECT_EQ(error_of({.columns = 1}), "columns: must be in [2, 10000000], got 1");
+  EXPECT_EQ(error_of({.columns = k_max_columns + 1}), "columns: must be in [2, 10000000], got 10000001");
   for (const double bad : {k_nan, k_infinity, -k_infinity}) {
     EXPECT_NE(error_of({.l = bad}), "");
     EXPECT_NE(error_of({.m = bad}), "");

@@ -22,12 +22,6 @@ TEST(Simulate, IsTheStepRepeated) {
   }
 }
 
-TEST(Simulate, GivesOneColumnIfAskedForOne) {
-  const Trajectory trajectory = simulate(k_course_q0, k_course_v0, {.columns = 1});
-  EXPECT_EQ(trajectory.columns, 1);
-  EXPECT_EQ(trajectory.q, (std::vector<double>{0.0, 1.5, 0.5235987755982988}));
-}
-
 // Free fall of the document's scheme has a closed form: y_k = y0 + k dt vy0 - g dt^2 k (k + 1) / 2, first order in dt.
 TEST(Simulate, FallsAsTheSchemeSaysAndConvergesWithOrderOne) {
   const double time = 0.4, g = 9.81;

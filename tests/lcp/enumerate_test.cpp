@@ -42,6 +42,11 @@ TEST(Enumerate, CompletesSingularBases) {
   }
 }
 
+TEST(Enumerate, ClaimsNoProofWhereNumbersLeaveTheRangeOfDouble) {
+  EXPECT_EQ(enumerate({{1e308, 1e308, 1e308, 1e308}, {-1e308, -1e308}, {}}).status, LcpStatus::numerical);
+  EXPECT_EQ(enumerate({{1e-300}, {-1e300}, {}}).status, LcpStatus::numerical);
+}
+
 TEST(Enumerate, ListsEachSolutionOnceInTheOrderOfItsBasis) {
   const std::vector<LcpResult> solutions = enumerate_solutions({{-2, -1, -1, -2}, {1, 1}, {}});
   ASSERT_EQ(solutions.size(), 4u);

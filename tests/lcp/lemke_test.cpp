@@ -87,6 +87,24 @@ TEST(Lemke, IsNotMisledByTinyEntries) {
   EXPECT_GT(residual(problem, std::vector<double>{0, 0, 0, 10, 0}).largest(), 0.4);
 }
 
+// Rows and columns of very uneven sizes: an answer may be missed, but not invented.
+TEST(Lemke, DoesNotCallAWrongVectorSolvedWhereSizesDiffer) {
+  const std::vector<LcpProblem> problems = {
+      {{-1e-10, 1e-7, .01, 0}, {.1, -1e-9}, {}},
+      {{-1e4, -1e3, 1e-3, -1e-6, 0, -1e-13, 0, -1e7, 10}, {-1e4, -1e-6, -1e8}, {}},
+      {{11, 0, 10, 1, 0, 11e-8, 10e-8, 1e-8, 10, 10, 21, 1, -1e-8, -1e-8, -1e-8, 0}, {50, 50e-8, 10, -6e-8}, {}},
+      {{256, -0x1p-28, 0, 0, 0, 0x1p-4, -0x1p34, .25, 16}, {-0x1p-4, -0x1p14, -0x1p22}, {}}};
+  for (const LcpProblem& problem : problems) {
+    const LcpResult result = lemke(problem);
+    if (result.status != LcpStatus::solved) continue;
+    for (std::size_t i = 0; i < problem.size(); ++i) {
+      double size = std::abs(problem.q[i]);
+      for (std::size_t j = 0; j < problem.size(); ++j) size += std::abs(problem(i, j) * result.z[j]);
+      EXPECT_GE(result.w[i], -1e-8 * size);
+    }
+  }
+}
+
 // Each row is 1e-8 times coupled to the one before: a scale that follows the coupling would grow without bound.
 TEST(Lemke, SolvesWeaklyCoupledChains) {
   constexpr std::size_t n = 12;

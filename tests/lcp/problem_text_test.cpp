@@ -23,6 +23,8 @@ TEST(ParseLcp, ReadsCommentsFractionsAndAnySpacing) {
   EXPECT_EQ(problem.q, (std::vector<double>{-1, -0.5}));
 }
 
+TEST(ParseLcp, PassesOverAByteOrderMark) { EXPECT_EQ(parse_lcp("\xEF\xBB\xBFM\n1\nq\n-1\n").M[0], 1.0); }
+
 TEST(ParseLcp, ReadsBackWhatToTextWrites) {
   test::Random random(14);
   LcpProblem problem;

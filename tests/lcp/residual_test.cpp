@@ -58,10 +58,14 @@ TEST(Residual, DoesNotChangeWithTheUnits) {
   }
 }
 
-// A row whose terms all vanish is judged by the size of the rows it is coupled to, given or derived.
-TEST(Residual, DoesNotTakeRoundOffInAnIdleRowForAnError) {
-  const LcpProblem problem{{1, 0, 1e-3, 1}, {-1, -1e-3 - 1e-17}, {}};
-  EXPECT_LT(residual(problem, std::vector{1.0, 0.0}).largest(), 1e-14);
+// A row whose terms all vanish is judged by its row size, if it is given, and else at its word.
+TEST(Residual, TakesARowForIdleOnlyIfToldItsSize) {
+  LcpProblem problem{{1, 0, 1e-3, 1}, {-1, -1e-3 - 1e-12}, {}};
+  EXPECT_GT(residual(problem, std::vector{1.0, 0.0}).largest(), 1e-10);
+  problem = {{1, 0, 0, 1}, {-1, -1e-17}, {}};
+  EXPECT_EQ(residual(problem, std::vector{1.0, 0.0}).largest(), 1.0);
+  problem.row_sizes = {1, 1};
+  EXPECT_LT(residual(problem, std::vector{1.0, 0.0}).largest(), 1e-16);
 }
 
 TEST(Residual, RefusesAVectorOfAnotherLength) {

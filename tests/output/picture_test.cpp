@@ -27,7 +27,7 @@ drop::Record run(const Vector3& q, const Vector3& v, const drop::Parameters& par
 // Starts that leave a naive picture without a size, without a scale, or with coordinates that no number tells
 // apart.
 std::vector<drop::Record> odd_records() {
-  std::vector<drop::Record> records = {test::course_record(1), test::course_record(2)};
+  std::vector<drop::Record> records = {test::course_record(2), test::course_record(3)};
   drop::Parameters p;
   p.columns = 20;
   p.g = 0.0;

@@ -79,6 +79,7 @@ def test_any_size(n: int) -> None:
         (lambda: lcp.solve([[1.0]], [np.inf]), r"q\[0\]: must be finite, got inf"),
         (lambda: lcp.solve([[1.0]], [1.0], method="simplex"), "method: must be one of lemke, enumerate, got 'simplex'"),
         (lambda: lcp.solve([[1.0]], [1.0], pivot_tolerance=2.0), r"pivot_tolerance: must be in \[0, 1\), got 2"),
+        (lambda: lcp.solve([[1.0]], [1.0], accepted_residual=np.inf), r"accepted_residual: must be in \(0, 0.01\], got inf"),
         (lambda: lcp.all_solutions(np.eye(13), np.ones(13)), "at most 12 entries"),
         (lambda: lcp.residual([[1.0]], [1.0], [1.0, 2.0]), "z: must have 1 entries like q, got 2"),
         (lambda: lcp.parse("M\n1 x\n", name="here"), "here:2:3: expected a number"),

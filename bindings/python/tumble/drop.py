@@ -56,7 +56,7 @@ delta : float, default 0.001
 g : float, default 9.81
     Gravitational acceleration, downwards [m/s^2].
 columns : int, default 150
-    Columns of a trajectory, the initial state included.
+    Columns of a trajectory, the initial state included, 2 to 10 000 000.
 
 Raises
 ------

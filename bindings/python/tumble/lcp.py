@@ -28,7 +28,7 @@ class Result:
     Attributes
     ----------
     status : str
-        "solved"; "no_solution_proved" (every complementary basis was tried); "ray_unproven" (Lemke ended on a ray: none
+        "solved"; "no_solution_proved" (every complementary basis was tried and failed clearly); "ray_unproven" (Lemke ended on a ray: none
         found, none excluded); "iteration_limit"; "numerical" (the residual is above the accepted bound).
     z, w : ndarray, shape (n,)
         The solution and M z + q; if the status is not "solved", the best candidate met, or 0.
@@ -107,7 +107,7 @@ def all_solutions(M: ArrayLike, q: ArrayLike, accepted_residual: float = 1e-9) -
     M : array_like, shape (n, n)
     q : array_like, shape (n,)
     accepted_residual : float
-        A basis counts as a solution up to this residual, > 0.
+        A basis counts as a solution up to this residual, in (0, 0.01].
 
     Returns
     -------
@@ -125,8 +125,7 @@ def all_solutions(M: ArrayLike, q: ArrayLike, accepted_residual: float = 1e-9) -
 def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike) -> Residual:
     """How far z is from solving the LCP (M, q), without unit.
 
-    It judges each row by its terms and by a typical size derived from the diagonal of M and the largest |q| around. A
-    change of the units of mass, length and time changes it by no more than the rounding of that size to a power of two.
+    Each row is judged by the size of its own terms, so that no change of units of w or z changes the residual.
 
     Parameters
     ----------

@@ -27,8 +27,8 @@ void validate(const Parameters& p) {
   require(is_positive(p.dt), "dt", "finite and > 0", p.dt, "s");
   require(std::isfinite(p.delta) && p.delta >= 0.0, "delta", "finite and >= 0", p.delta, "m");
   require(std::isfinite(p.g), "g", "finite", p.g, "m/s^2");
-  if (p.columns < 1 || p.columns > k_max_columns) {
-    throw std::invalid_argument(fmt::format("columns: must be in [1, {}], got {}", k_max_columns, p.columns));
+  if (p.columns < 2 || p.columns > k_max_columns) {
+    throw std::invalid_argument(fmt::format("columns: must be in [2, {}], got {}", k_max_columns, p.columns));
   }
   const double inertia = moment_of_inertia(p);
   require(inertia > 1e-300 && inertia < 1e300 && p.m > 1e-300 && p.m < 1e300, "m, l",

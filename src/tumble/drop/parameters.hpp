@@ -11,7 +11,7 @@ struct Parameters {
   double dt = 0.01;      // time step [s], > 0
   double delta = 0.001;  // contact threshold and lift [m], >= 0
   double g = 9.81;       // gravitational acceleration, downwards [m/s^2]
-  int columns = 150;     // columns of a trajectory, the initial state included, in [1, k_max_columns]
+  int columns = 150;     // columns of a trajectory, the initial state included, in [2, k_max_columns]
 
   bool operator==(const Parameters&) const = default;
 };

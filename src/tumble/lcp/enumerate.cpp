@@ -18,6 +18,7 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double k_rank_tolerance = 1e-11;  // pivots of an equilibrated matrix below this count as 0
+constexpr double k_clear_failure = 1e-6;    // a basis that fails by less does not prove anything
 
 std::vector<Index> members(unsigned set) {
   std::vector<Index> indices;
@@ -48,6 +49,9 @@ class Enumeration {
     return std::move(solutions_);
   }
 
+  // True if every basis that is not a solution failed clearly.
+  bool is_clear() const { return is_clear_; }
+
  private:
   // z = 0 outside `basis`, w = 0 on it.
   void try_basis(unsigned basis) {
@@ -58,9 +62,13 @@ class Enumeration {
     Eigen::FullPivLU<Eigen::MatrixXd> lu(M_BB);
     lu.setThreshold(k_rank_tolerance);
     const Eigen::VectorXd z_B = lu.solve(right);
-    if (lu.isInvertible()) return keep_if_solution(basis, z_B);
-    const double scale = right.cwiseAbs().maxCoeff() + z_B.cwiseAbs().maxCoeff();
-    if ((M_BB * z_B - right).cwiseAbs().maxCoeff() > 1e-9 * scale) return;
+    if (lu.isInvertible()) {
+      if (lu.rcond() < k_rank_tolerance) is_clear_ = false;
+      return keep_if_solution(basis, z_B);
+    }
+    const double size = right.cwiseAbs().maxCoeff() + z_B.cwiseAbs().maxCoeff();
+    const double inconsistency = size > 0.0 ? (M_BB * z_B - right).cwiseAbs().maxCoeff() / size : 0.0;
+    if (inconsistency > 1e-9) return note_failure(inconsistency);
     complete_singular_basis(basis, columns, columns.size() - static_cast<std::size_t>(lu.rank()));
   }
 
@@ -86,12 +94,12 @@ class Enumeration {
     const double largest = columns.empty() ? 0.0 : z_B.cwiseAbs().maxCoeff();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const double z_k = z_B[static_cast<Index>(k)];
-      if (!(z_k >= -accepted_residual_ * largest)) return;
+      if (!(z_k >= -accepted_residual_ * largest)) return note_failure(-z_k / largest);
       candidate.z[columns[k]] = std::ldexp(std::max(z_k, 0.0), scales_.column[columns[k]]);
       candidate.basis[columns[k]] = 1;
     }
     candidate.residual = residual(problem_, candidate.z).largest();
-    if (!(candidate.residual <= accepted_residual_)) return;
+    if (!(candidate.residual <= accepted_residual_)) return note_failure(candidate.residual);
     if (std::any_of(solutions_.begin(), solutions_.end(),
                     [&](const LcpResult& known) { return is_same(known.z, candidate.z); })) {
       return;
@@ -99,6 +107,11 @@ class Enumeration {
     candidate.w = complement(problem_, candidate.z);
     candidate.status = LcpStatus::solved;
     solutions_.push_back(std::move(candidate));
+  }
+
+  // By how much a basis missed, relative to the sizes involved; not finite if numbers left the range of double.
+  void note_failure(double violation) {
+    if (!(violation > k_clear_failure && std::isfinite(violation))) is_clear_ = false;
   }
 
   // Equal in equilibrated units up to a tolerance well above the error of a small linear solve.
@@ -119,27 +132,35 @@ class Enumeration {
   Eigen::VectorXd q_;
   std::vector<LcpResult> solutions_;
   int num_tried_ = 0;
+  bool is_clear_ = true;
 };
 
-}  // namespace
-
-std::vector<LcpResult> enumerate_solutions(const LcpProblem& problem, const EnumerateSettings& settings) {
+void validate(const LcpProblem& problem, const EnumerateSettings& settings) {
   validate(problem);
   if (problem.size() > k_max_enumerate_size) {
     throw std::invalid_argument(fmt::format("q: enumeration takes at most {} entries (it tries 2^n bases), got {}",
                                             k_max_enumerate_size, problem.size()));
   }
-  if (!(settings.accepted_residual > 0.0)) {
-    throw std::invalid_argument(fmt::format("accepted_residual: must be > 0, got {}", settings.accepted_residual));
+  if (!(settings.accepted_residual > 0.0 && settings.accepted_residual <= k_largest_accepted_residual)) {
+    throw std::invalid_argument(fmt::format("accepted_residual: must be in (0, {}], got {}",
+                                            k_largest_accepted_residual, settings.accepted_residual));
   }
+}
+
+}  // namespace
+
+std::vector<LcpResult> enumerate_solutions(const LcpProblem& problem, const EnumerateSettings& settings) {
+  validate(problem, settings);
   return Enumeration(problem, settings).run();
 }
 
 LcpResult enumerate(const LcpProblem& problem, const EnumerateSettings& settings) {
-  std::vector<LcpResult> solutions = enumerate_solutions(problem, settings);
+  validate(problem, settings);
+  Enumeration enumeration(problem, settings);
+  std::vector<LcpResult> solutions = enumeration.run();
   if (!solutions.empty()) return std::move(solutions.front());
   LcpResult none;
-  none.status = LcpStatus::no_solution_proved;
+  none.status = enumeration.is_clear() ? LcpStatus::no_solution_proved : LcpStatus::numerical;
   none.z.assign(problem.size(), 0.0);
   none.w = complement(problem, none.z);
   none.residual = residual(problem, none.z).largest();

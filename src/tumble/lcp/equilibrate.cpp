@@ -93,12 +93,4 @@ std::vector<double> block_sizes(const LcpProblem& problem, const Equilibration& 
   return largest;
 }
 
-std::vector<double> typical_row_sizes(const LcpProblem& problem) {
-  const Equilibration scales = equilibrate(problem);
-  const std::vector<double> largest = block_sizes(problem, scales);
-  std::vector<double> sizes(problem.size());
-  for (std::size_t i = 0; i < problem.size(); ++i) sizes[i] = std::ldexp(largest[scales.row_block[i]], -scales.row[i]);
-  return sizes;
-}
-
 }  // namespace tumble

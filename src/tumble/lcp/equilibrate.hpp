@@ -27,8 +27,4 @@ Equilibration equilibrate(const LcpProblem& problem);
 // The largest |q_k| 2^row[k] of each block (2 n values), the size of what is to be solved there.
 std::vector<double> block_sizes(const LcpProblem& problem, const Equilibration& scales);
 
-// The largest |q_k| seen from row i, in the unit of w_i, as `equilibrate` relates the rows that are coupled to each
-// other: what an LcpProblem without row_sizes is taken to mean. n entries >= 0.
-std::vector<double> typical_row_sizes(const LcpProblem& problem);
-
 }  // namespace tumble

@@ -155,7 +155,9 @@ void validate(const LemkeSettings& settings) {
   if (!(settings.pivot_tolerance >= 0.0 && settings.pivot_tolerance < 1.0)) {
     refuse("pivot_tolerance", settings.pivot_tolerance, "in [0, 1)");
   }
-  if (!(settings.accepted_residual > 0.0)) refuse("accepted_residual", settings.accepted_residual, "> 0");
+  if (!(settings.accepted_residual > 0.0 && settings.accepted_residual <= k_largest_accepted_residual)) {
+    refuse("accepted_residual", settings.accepted_residual, "in (0, 0.01]");
+  }
 }
 
 // How the pivots ended, before the residual has its say.

