@@ -13,29 +13,27 @@ double smaller(double a, double b) { return a < b ? a : b; }
 // One row's share of the residual: the worst of -w, -z and min(w, z), for relative w and z.
 double violation(double w, double z) { return larger(larger(-w, -z), smaller(w, z)); }
 
-// `residual` written out for the four rows of one contact: rows 2 and 3 share their d.
-double one_contact_residual(const OneContact& c, const Vector4& z) {
-  const auto [f_n, f_t1, f_t2, slip_speed] = z;
+// `residual` written out for the four rows of one contact: rows 2 and 3 share their d, and f_t1 + f_t2 = |f_t|.
+double one_contact_residual(const OneContact& c, double f_n, double f_t, double slip_speed) {
   const double velocity_size = larger(std::abs(c.b_n), std::abs(c.b_t));
   if (velocity_size == 0.0) return 0.0;
 
-  const double f_t = f_t2 - f_t1;
+  const double f_t_size = std::abs(f_t);
   const double u_n = c.A_nn * f_n + c.A_nt * f_t + c.b_n;
   const double u_t = c.A_nt * f_n + c.A_tt * f_t + c.b_t;
-  const double cone = c.friction * f_n - f_t1 - f_t2;
+  const double cone = c.friction * f_n - f_t_size;
 
   const double A_nt = std::abs(c.A_nt);
-  const double f_t_sum = f_t1 + f_t2;
-  const double inverse_d_n = 1.0 / (velocity_size + std::abs(c.b_n) + c.A_nn * f_n + A_nt * f_t_sum);
-  const double inverse_d_t = 1.0 / (velocity_size + std::abs(c.b_t) + A_nt * f_n + c.A_tt * f_t_sum + slip_speed);
-  const double inverse_d_cone = c.A_nn / (velocity_size + c.A_nn * (c.friction * f_n + f_t_sum));
+  const double inverse_d_n = 1.0 / (velocity_size + std::abs(c.b_n) + c.A_nn * f_n + A_nt * f_t_size);
+  const double inverse_d_t = 1.0 / (velocity_size + std::abs(c.b_t) + A_nt * f_n + c.A_tt * f_t_size + slip_speed);
+  const double inverse_d_cone = c.A_nn / (velocity_size + c.A_nn * (c.friction * f_n + f_t_size));
 
   const double inverse_s_n = larger(larger(c.A_nn * inverse_d_n, A_nt * inverse_d_t), c.friction * inverse_d_cone);
   const double inverse_s_t = larger(larger(A_nt * inverse_d_n, c.A_tt * inverse_d_t), inverse_d_cone);
 
   const double normal = violation(u_n * inverse_d_n, f_n * inverse_s_n);
-  const double left = violation((slip_speed - u_t) * inverse_d_t, f_t1 * inverse_s_t);
-  const double right = violation((slip_speed + u_t) * inverse_d_t, f_t2 * inverse_s_t);
+  const double left = violation((slip_speed - u_t) * inverse_d_t, larger(-f_t, 0.0) * inverse_s_t);
+  const double right = violation((slip_speed + u_t) * inverse_d_t, larger(f_t, 0.0) * inverse_s_t);
   const double friction = violation(cone * inverse_d_cone, slip_speed * inverse_d_t);
   return larger(larger(normal, left), larger(right, friction));
 }
@@ -99,7 +97,7 @@ Vector4 as_z(const OneContactSolution& solution) {
 OneContactSolution solve_one_contact(const OneContact& contact) {
   constexpr double accepted_residual = 1e-10;  // round-off of a few operations, times the condition of A up to 1e5
   OneContactSolution solution = choose_mode(contact);
-  solution.residual = one_contact_residual(contact, as_z(solution));
+  solution.residual = one_contact_residual(contact, solution.f_n, solution.f_t, solution.slip_speed);
   // A NaN fails each comparison that it takes part in. Joined by & so that the processor need not guess a branch each.
   const bool is_contact = (contact.A_nn > 0.0) & (contact.friction >= 0.0);
   const bool is_finite = solution.f_n + std::abs(solution.f_t) + solution.slip_speed <= 1e300;
