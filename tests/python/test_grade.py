@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import runpy
 import subprocess
 import sys
@@ -473,3 +474,31 @@ def test_states_are_the_same_every_time_and_nothing_wrong_is_right(part):
 )
 def test_parameters_are_found_under_many_names(namespace, key, value, name):
     assert read_parameters(namespace)[key] == {"value": value, "name": name}
+
+
+def test_a_submission_that_deletes_its_folder_is_graded(tmp_path):
+    path = tmp_path / "assignment_3.py"
+    course_style = (SUBMISSIONS / "course_style.py").read_text()
+    path.write_text("import os, shutil\nshutil.rmtree(os.getcwd())\n" + course_style)
+    grade = grade_file(path)
+    assert grade.problem is None or "No such file" not in grade.problem
+
+
+@pytest.mark.parametrize("name", ["mu", "eps", "delta"])
+def test_a_parameter_of_zero_is_said_to_hide_mistakes(tmp_path, name):
+    path = tmp_path / "assignment_3.py"
+    text = (SUBMISSIONS / "documented_names.py").read_text()
+    path.write_text(re.sub(rf"(?m)^{name} = .*$", f"{name} = 0.0", text))
+    assert f"{name} = 0.0" in path.read_text()
+    assert any(f"{name} = 0 in this file" in note for note in grade_file(path).notes)
+
+
+def test_odd_file_names_do_not_cost_the_table(tmp_path):
+    folder = tmp_path / "all"
+    folder.mkdir()
+    text = (SUBMISSIONS / "course_style.py").read_bytes()
+    (folder / os.fsdecode(b"b\xff.py")).write_bytes(text)
+    command = [sys.executable, "-m", "tumble.grade", str(folder), "--csv", str(tmp_path / "out.csv")]
+    run = subprocess.run(command, capture_output=True)
+    assert run.returncode == 0 and b"100" in run.stdout, run.stderr
+    assert "100" in (tmp_path / "out.csv").read_text()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import os
 import sys
 from pathlib import Path
@@ -12,6 +11,8 @@ from pathlib import Path
 from tumble.grade.grading import SECONDS, Grade, grade_file, grade_folder
 from tumble.grade.report import as_csv, as_json, as_table, as_text
 from tumble.grade.sandbox import SandboxError
+
+_MOST_SECONDS = 3600.0
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -35,8 +36,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _grades(options: argparse.Namespace) -> list[Grade]:
-    if not (math.isfinite(options.seconds) and options.seconds > 0.0):
-        raise ValueError(f"--seconds: must be a number > 0, got {options.seconds}")
+    if not 0.0 < options.seconds <= _MOST_SECONDS:
+        raise ValueError(f"--seconds: must be a number > 0 and at most {_MOST_SECONDS:g}, got {options.seconds}")
     path = Path(options.path)
     if not path.exists():
         raise ValueError(f"{path}: no such file or folder")
@@ -53,7 +54,7 @@ def _grades(options: argparse.Namespace) -> list[Grade]:
 def _write_csv(path: Path, text: str) -> None:
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        part.write_text(text, encoding="utf-8")
+        part.write_text(text, encoding="utf-8", errors="backslashreplace")  # file names may hold any byte
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
@@ -75,9 +76,16 @@ def main(arguments: list[str] | None = None) -> int:
     is_folder = Path(options.path).is_dir()
     if options.json:
         report = {"submissions": [as_json(grade) for grade in grades]} if is_folder else as_json(grades[0])
-        print(json.dumps(report, indent=2))
+        text = json.dumps(report, indent=2)
     else:
-        print(as_table(grades) if is_folder else as_text(grades[0]))
+        text = as_table(grades) if is_folder else as_text(grades[0])
+    try:
+        sys.stdout.buffer.write((text + "\n").encode(sys.stdout.encoding or "utf-8", errors="backslashreplace"))
+        sys.stdout.flush()
+    except OSError as error:
+        print(f"tumble.grade: standard output could not be written: {error.strerror}", file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # or the interpreter complains once more at its end
+        return 2
     return 0
 
 

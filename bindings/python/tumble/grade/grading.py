@@ -156,16 +156,17 @@ def _grade(path: Path, name: str, cache: Path, seconds: float) -> Grade:
     if grade.problem:
         return grade
     conventions: Conventions = {}
-    with scratch_folder(source) as scratch:
-        for index, part in enumerate(PARTS):
-            with StudentProcess(scratch, cache, seconds) as process:
-                module = process.load()
-                if module is None:
-                    return _not_loaded(grade, index, process.end)
-                grade.parameters = module["parameters"]
-                grade.notes = module["notes"] if index == 0 else grade.notes
-                grade.parts[index] = _grade_part(part, process, module, conventions)
-                conventions.update(grade.parts[index].conventions)
+    for index, part in enumerate(PARTS):
+        # A folder of its own for each part: code may delete or change what it finds.
+        with scratch_folder(source) as scratch, StudentProcess(scratch, cache, seconds) as process:
+            module = process.load()
+            if module is None:
+                return _not_loaded(grade, index, process.end)
+            grade.parameters = module["parameters"]
+            grade.notes = module["notes"] if index == 0 else grade.notes
+            grade.parts[index] = _grade_part(part, process, module, conventions)
+            conventions.update(grade.parts[index].conventions)
+    grade.notes += _hidden_by_parameters(grade.parameters)
     if printing := [part.FUNCTION for part, result in zip(PARTS, grade.parts) if result.prints]:
         grade.notes.append(
             f"{', '.join(printing)}: prints; that costs nothing, but remove it before you hand in"
@@ -183,6 +184,16 @@ def _problem_of_source(source: bytes) -> str:
     if source.lstrip().startswith(b"{") and b'"cells"' in source:
         return "the file is a Jupyter notebook; save it as a Python script"
     return ""
+
+
+def _hidden_by_parameters(parameters: dict[str, dict[str, Any]]) -> list[str]:
+    """What a parameter of 0 keeps the checks from seeing; the submission is graded with its own values."""
+    hidden = {"mu": "friction", "eps": "restitution", "delta": "the lift"}
+    return [
+        f"{key} = 0 in this file: mistakes about {what} cannot be seen, the points say nothing about it"
+        for key, what in hidden.items()
+        if parameters.get(key, {}).get("value") == 0.0
+    ]
 
 
 def _not_loaded(grade: Grade, index: int, reason: str) -> Grade:
