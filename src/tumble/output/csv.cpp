@@ -275,7 +275,11 @@ std::string csv_rows(const Record& record, int first, int last) {
   return text;
 }
 
-std::string to_csv(const Record& record) { return csv_header(record) + csv_rows(record, 0, record.trajectory.columns); }
+std::string to_csv(const Record& record) {
+  std::string text = csv_header(record);  // first: it checks the record
+  text += csv_rows(record, 0, record.trajectory.columns);
+  return text;
+}
 
 Record parse_record_csv(std::string_view text, const std::string& name) {
   LineReader lines(text, name);
