@@ -32,6 +32,8 @@ std::mutex& library_mutex() {
 class Silence {
  public:
   Silence() {
+    // No clean-up at the end of the program either: after a damaged file it prints, and all files here lie in memory.
+    [[maybe_unused]] static const herr_t once = H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
