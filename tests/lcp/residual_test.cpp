@@ -58,14 +58,12 @@ TEST(Residual, DoesNotChangeWithTheUnits) {
   }
 }
 
-// A row whose terms all vanish is judged by its row size, if it is given, and else at its word.
-TEST(Residual, TakesARowForIdleOnlyIfToldItsSize) {
-  LcpProblem problem{{1, 0, 1e-3, 1}, {-1, -1e-3 - 1e-12}, {}};
-  EXPECT_GT(residual(problem, std::vector{1.0, 0.0}).largest(), 1e-10);
-  problem = {{1, 0, 0, 1}, {-1, -1e-17}, {}};
-  EXPECT_EQ(residual(problem, std::vector{1.0, 0.0}).largest(), 1.0);
-  problem.row_sizes = {1, 1};
-  EXPECT_LT(residual(problem, std::vector{1.0, 0.0}).largest(), 1e-16);
+// Round-off beside a row of size 1 is small, a violation far above round-off is not.
+TEST(Residual, TellsRoundOffInAnIdleRowFromAnError) {
+  EXPECT_LT(residual({{1, 1e-19, 0, 1}, {-1, -1e-17}, {}}, std::vector{1.0, 0.0}).largest(), 1e-10);
+  EXPECT_GT(residual({{1, 1e-19, 0, 1}, {-1, -1e-12}, {}}, std::vector{1.0, 0.0}).largest(), 1e-7);
+  EXPECT_GT(residual({{1, 0, 0, 1}, {-1, -1e-17}, {}}, std::vector{1.0, 0.0}).largest(), 0.9) << "not coupled";
+  EXPECT_LT(residual({{1, 0, 0, 1}, {-1, -1e-17}, {1, 1}}, std::vector{1.0, 0.0}).largest(), 1e-16) << "as told";
 }
 
 TEST(Residual, RefusesAVectorOfAnotherLength) {

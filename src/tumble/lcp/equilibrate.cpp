@@ -93,4 +93,17 @@ std::vector<double> block_sizes(const LcpProblem& problem, const Equilibration& 
   return largest;
 }
 
+std::vector<double> round_off_sizes(const LcpProblem& problem) {
+  // A rounding error of the block, 1e-16 of its size, then counts as a residual of 1e-10; a violation of 1e-12 of it as
+  // 1e-6, which no solver accepts.
+  constexpr double share = 1e-6;
+  const Equilibration scales = equilibrate(problem);
+  const std::vector<double> largest = block_sizes(problem, scales);
+  std::vector<double> sizes(problem.size());
+  for (std::size_t i = 0; i < problem.size(); ++i) {
+    sizes[i] = std::ldexp(share * largest[scales.row_block[i]], -scales.row[i]);
+  }
+  return sizes;
+}
+
 }  // namespace tumble

@@ -27,4 +27,9 @@ Equilibration equilibrate(const LcpProblem& problem);
 // The largest |q_k| 2^row[k] of each block (2 n values), the size of what is to be solved there.
 std::vector<double> block_sizes(const LcpProblem& problem, const Equilibration& scales);
 
+// For a problem without row_sizes: 1e-6 of the largest |q_k| of the block of row i, in the unit of w_i. n entries >= 0.
+// Small, so that a row may be far smaller than its neighbours and still count; not 0, so that the round-off of the
+// neighbours does not count as an error of 1 in a row whose own terms all vanish.
+std::vector<double> round_off_sizes(const LcpProblem& problem);
+
 }  // namespace tumble

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "tumble/lcp/equilibrate.hpp"
+
 namespace tumble {
 
 double LcpResidual::largest() const { return std::max({negative_w, negative_z, complementarity}); }
@@ -29,7 +31,7 @@ LcpResidual residual(const LcpProblem& problem, std::span<const double> z) {
     throw std::invalid_argument(fmt::format("z: must have {} entries like q, got {}", n, z.size()));
   }
   const std::vector<double> w = complement(problem, z);
-  std::vector<double> d = problem.row_sizes.empty() ? std::vector<double>(n, 0.0) : problem.row_sizes;
+  std::vector<double> d = problem.row_sizes.empty() ? round_off_sizes(problem) : problem.row_sizes;
   for (std::size_t i = 0; i < n; ++i) {
     d[i] += std::abs(problem.q[i]);
     for (std::size_t j = 0; j < n; ++j) d[i] += std::abs(problem(i, j) * z[j]);
