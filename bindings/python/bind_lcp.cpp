@@ -55,8 +55,10 @@ py::list all_solutions(const py::handle& M, const py::handle& q, double accepted
 }
 
 // (negative_w, negative_z, complementarity)
-py::tuple residual_parts(const py::handle& M, const py::handle& q, const py::handle& z) {
-  const LcpResidual parts = residual(as_problem(M, q), as_vector(as_array(z, "z", {-1})));
+py::tuple residual_parts(const py::handle& M, const py::handle& q, const py::handle& z, const py::handle& row_sizes) {
+  LcpProblem problem = as_problem(M, q);
+  if (!row_sizes.is_none()) problem.row_sizes = as_vector(as_array(row_sizes, "row_sizes", {-1}));
+  const LcpResidual parts = residual(problem, as_vector(as_array(z, "z", {-1})));
   return py::make_tuple(parts.negative_w, parts.negative_z, parts.complementarity);
 }
 
@@ -78,7 +80,7 @@ void bind_lcp(py::module_& module) {
              py::arg("accepted_residual") = enumerate_defaults.accepted_residual);
   module.def("all_solutions", &all_solutions, py::arg("M"), py::arg("q"),
              py::arg("accepted_residual") = enumerate_defaults.accepted_residual);
-  module.def("residual", &residual_parts, py::arg("M"), py::arg("q"), py::arg("z"));
+  module.def("residual", &residual_parts, py::arg("M"), py::arg("q"), py::arg("z"), py::arg("row_sizes") = py::none());
   module.def("parse_lcp", &parse_text, py::arg("text"), py::arg("name") = "lcp");
 }
 

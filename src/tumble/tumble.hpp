@@ -3,6 +3,7 @@
 
 #include "tumble/drop/drop.hpp"
 #include "tumble/drop/parameters.hpp"
+#include "tumble/lcp/contact_system.hpp"
 #include "tumble/lcp/enumerate.hpp"
 #include "tumble/lcp/lemke.hpp"
 #include "tumble/lcp/one_contact.hpp"

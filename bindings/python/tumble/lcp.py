@@ -122,7 +122,7 @@ def all_solutions(M: ArrayLike, q: ArrayLike, accepted_residual: float = 1e-9) -
     return [Result(*result) for result in _core.all_solutions(M, q, accepted_residual)]
 
 
-def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike) -> Residual:
+def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike, row_sizes: ArrayLike | None = None) -> Residual:
     """How far z is from solving the LCP (M, q), without unit.
 
     Each row is judged by the size of its own terms, so that no change of units of w or z changes the residual.
@@ -131,6 +131,9 @@ def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike) -> Residual:
     ----------
     M : array_like, shape (n, n)
     q, z : array_like, shape (n,)
+    row_sizes : array_like, shape (n,), optional
+        The typical size of each w_i, >= 0, in its unit: an approach speed, say. It decides what is round-off in a row
+        whose own terms all vanish. Left out, a small share of the largest entry of q is taken.
 
     Returns
     -------
@@ -141,7 +144,7 @@ def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike) -> Residual:
     ValueError
         For shapes that do not fit, NaN or infinite entries of M or q.
     """
-    return Residual(*_core.residual(M, q, z))
+    return Residual(*_core.residual(M, q, z, row_sizes))
 
 
 def parse(text: str, name: str = "lcp") -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -98,7 +98,9 @@ class Enumeration {
       candidate.z[columns[k]] = std::ldexp(std::max(z_k, 0.0), scales_.column[columns[k]]);
       candidate.basis[columns[k]] = 1;
     }
-    candidate.residual = residual(problem_, candidate.z).largest();
+    candidate.rung = LcpRung::enumerate;
+    candidate.parts = residual(problem_, candidate.z);
+    candidate.residual = candidate.parts.largest();
     if (!(candidate.residual <= accepted_residual_)) return note_failure(candidate.residual);
     if (std::any_of(solutions_.begin(), solutions_.end(),
                     [&](const LcpResult& known) { return is_same(known.z, candidate.z); })) {
@@ -163,7 +165,9 @@ LcpResult enumerate(const LcpProblem& problem, const EnumerateSettings& settings
   none.status = enumeration.is_clear() ? LcpStatus::no_solution_proved : LcpStatus::numerical;
   none.z.assign(problem.size(), 0.0);
   none.w = complement(problem, none.z);
-  none.residual = residual(problem, none.z).largest();
+  none.parts = residual(problem, none.z);
+  none.residual = none.parts.largest();
+  none.rung = LcpRung::enumerate;
   none.basis.assign(problem.size(), 0);
   none.pivots = 1 << problem.size();
   return none;

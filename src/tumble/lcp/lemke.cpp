@@ -197,16 +197,18 @@ LcpResult lemke(const LcpProblem& problem, const LemkeSettings& settings) {
   const int max_pivots = settings.max_pivots > 0 ? settings.max_pivots : 100 * static_cast<int>(n) + 1000;
   const PivotOutcome outcome = run_pivots(tableau, settings, max_pivots);
 
+  result.rung = LcpRung::lemke;
   result.pivots = outcome.pivots;
   result.basis = tableau.basic_z();
   result.residual = std::numeric_limits<double>::infinity();
   for (const Eigen::VectorXd& candidate : {solve_basis(scaled, result.basis), tableau.z_values()}) {
     std::vector<double> z(n);
     for (std::size_t i = 0; i < n; ++i) z[i] = std::ldexp(candidate[i], scaled.z_exponent[i]);
-    const double candidate_residual = residual(problem, z).largest();
-    if (result.z.empty() || candidate_residual < result.residual) {
+    const LcpResidual parts = residual(problem, z);
+    if (result.z.empty() || parts.largest() < result.residual) {
       result.z = z;
-      result.residual = candidate_residual;
+      result.parts = parts;
+      result.residual = parts.largest();
     }
   }
   result.w = complement(problem, result.z);
