@@ -1,6 +1,7 @@
 // What a solver of linear complementarity problems returns.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -14,13 +15,18 @@ inline constexpr double k_largest_accepted_residual = 1e-2;
 
 enum class LcpStatus {
   solved,              // z is a solution; its residual is within the accepted bound
-  infeasible,          // no z >= 0 has M z + q >= 0: `certificate` is the proof
   no_solution_proved,  // feasible or not, every complementary basis was tried and failed clearly
   ray_unproven,        // Lemke ended on a ray: no solution found, but none excluded either
   iteration_limit,     // the allowed number of pivots or sweeps was used up
   numerical,           // the method ended regularly, but the residual is above the accepted bound
+  infeasible,          // no z >= 0 has M z + q >= 0: `certificate` is the proof
   bad_input,           // the problem is not one: wrong lengths, NaN, infinity; only from functions that never throw
 };
+
+// All of them in order; files store the position, so new ones go to the end.
+inline constexpr std::array k_lcp_statuses = {
+    LcpStatus::solved,    LcpStatus::no_solution_proved, LcpStatus::ray_unproven, LcpStatus::iteration_limit,
+    LcpStatus::numerical, LcpStatus::infeasible,         LcpStatus::bad_input};
 
 // The enumerator's own name, "solved" and so on.
 std::string_view to_string(LcpStatus status);

@@ -30,9 +30,6 @@ constexpr std::size_t k_min_row_bytes = 2 * k_row_fields;  // one character and 
 
 constexpr std::array<ContactMode, 4> k_modes = {ContactMode::open, ContactMode::stick, ContactMode::slip_left,
                                                 ContactMode::slip_right};
-constexpr std::array<LcpStatus, 5> k_statuses = {LcpStatus::solved, LcpStatus::no_solution_proved,
-                                                 LcpStatus::ray_unproven, LcpStatus::iteration_limit,
-                                                 LcpStatus::numerical};
 
 // The word for a message: short, and without bytes that a terminal would act on.
 std::string quoted(std::string_view word) {
@@ -231,7 +228,7 @@ void parse_row(Row row, int k, Record& record) {
   StepRecord& step = record.steps[at];
   Row ahead = row;
   for (int skipped = 0; skipped < 7; ++skipped) ahead.next();
-  step.status = ahead.word(k_statuses);
+  step.status = ahead.word(k_lcp_statuses);
   const bool has_failed = step.status != LcpStatus::solved;
   step.gap = row.number(has_failed);
   step.corner = row.count(0, 3);
@@ -305,13 +302,13 @@ Record parse_record_csv(std::string_view text, const std::string& name) {
   std::size_t at = 1;
   const std::string_view status = header_value(lines, "status", "", at);
   bool is_known = false;
-  for (const LcpStatus value : k_statuses) {
+  for (const LcpStatus value : k_lcp_statuses) {
     if (status != to_string(value)) continue;
     record.trajectory.status = value;
     is_known = true;
   }
   if (!is_known)
-    lines.refuse(at, fmt::format("status: must be one of {}, got {}", names_of(k_statuses), quoted(status)));
+    lines.refuse(at, fmt::format("status: must be one of {}, got {}", names_of(k_lcp_statuses), quoted(status)));
   const std::string_view names = lines.next("the line of column names");
   if (names != k_names) lines.refuse(1, fmt::format("expected the column names '{}', got {}", k_names, quoted(names)));
 

@@ -19,7 +19,7 @@ using drop::StepRecord;
 
 constexpr int k_format_version = 1;
 constexpr int k_mode_count = 4;
-constexpr int k_status_count = 5;
+constexpr int k_status_count = static_cast<int>(k_lcp_statuses.size());
 
 struct ScalarField {
   const char* name;

@@ -1,0 +1,139 @@
+#include "tumble/lcp/contact_structure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// The contact of which row s is the cone: one entry > 0 or none, and two equal ones < 0.
+bool read_cone(const LcpProblem& problem, int s, ContactPlace& place) {
+  place = {};
+  place.s = s;
+  const int n = static_cast<int>(problem.size());
+  const double* row = problem.M.data() + static_cast<std::size_t>(s) * problem.size();
+  if (problem.q[static_cast<std::size_t>(s)] != 0.0) return false;
+  for (int j = 0; j < n; ++j) {
+    if (row[j] == 0.0) continue;
+    if (row[j] > 0.0) {
+      if (place.c >= 0) return false;
+      place.c = j;
+      place.friction = row[j];
+    } else if (place.plus < 0) {
+      place.plus = j;
+      place.cone = -row[j];
+    } else if (place.minus < 0 && -row[j] == place.cone) {
+      place.minus = j;
+    } else {
+      return false;
+    }
+  }
+  return place.minus >= 0;
+}
+
+// Rows and columns of plus and minus are each other's negatives, and column s acts on them alone.
+bool has_friction_rows(const LcpProblem& problem, const std::vector<ContactPlace>& places) {
+  const std::size_t n = problem.size();
+  for (const ContactPlace& p : places) {
+    if (p.s < 0) continue;
+    const auto plus = static_cast<std::size_t>(p.plus), minus = static_cast<std::size_t>(p.minus);
+    if (problem.q[plus] != -problem.q[minus]) return false;
+    const double* row_plus = problem.M.data() + plus * n;
+    const double* row_minus = problem.M.data() + minus * n;
+    for (std::size_t j = 0; j < n; ++j) {
+      const bool is_slip = static_cast<int>(j) == p.s;
+      if (row_plus[j] != (is_slip ? row_minus[j] : -row_minus[j])) return false;
+    }
+    if (!(row_plus[p.s] > 0.0)) return false;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double* row = problem.M.data() + i * n;
+    for (const ContactPlace& p : places) {
+      if (p.s < 0) continue;
+      const int row_index = static_cast<int>(i);
+      const bool is_own = row_index == p.plus || row_index == p.minus;
+      if (!is_own && row[p.s] != 0.0) return false;
+      if (row_index != p.s && row[p.plus] != -row[p.minus]) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool find_contacts(const LcpProblem& problem, ContactStructure& structure) {
+  const int n = static_cast<int>(problem.size());
+  std::vector<ContactPlace>& places = structure.places;
+  std::vector<int>& owner = structure.owner;
+  places.clear();
+  owner.assign(problem.size(), -1);
+  const auto claim = [&](int j, int contact) {
+    if (j < 0) return true;
+    const bool is_free = owner[static_cast<std::size_t>(j)] < 0;
+    owner[static_cast<std::size_t>(j)] = contact;
+    return is_free;
+  };
+  // Cone rows have no diagonal; a velocity row without one would be a contact between immovable things.
+  for (int i = 0; i < n; ++i) {
+    if (problem(static_cast<std::size_t>(i), static_cast<std::size_t>(i)) != 0.0) continue;
+    ContactPlace p;
+    if (!read_cone(problem, i, p)) return false;
+    const int contact = static_cast<int>(places.size());
+    if (!claim(p.c, contact) || !claim(p.plus, contact) || !claim(p.minus, contact) || !claim(p.s, contact)) {
+      return false;
+    }
+    places.push_back(p);
+  }
+  if (!has_friction_rows(problem, places)) return false;
+  for (ContactPlace& p : places) p.slip = problem(static_cast<std::size_t>(p.plus), static_cast<std::size_t>(p.s));
+  for (int j = 0; j < n; ++j) {  // what no cone names is a normal of its own
+    if (owner[static_cast<std::size_t>(j)] >= 0) continue;
+    places.emplace_back().c = j;
+  }
+  return true;
+}
+
+void read_responses(const LcpProblem& problem, ContactStructure& structure) {
+  const std::size_t n = problem.size();
+  structure.row_begin.assign(1, 0);
+  structure.column.clear();
+  structure.entry.clear();
+  structure.diagonal.clear();
+  structure.b.clear();
+  for (const ContactPlace& p : structure.places) {
+    for (const int i : {p.c, p.plus}) {
+      const auto own = static_cast<int>(structure.b.size());
+      double diagonal = 0.0;
+      if (i >= 0) {
+        const double* row = problem.M.data() + static_cast<std::size_t>(i) * n;
+        int column = 0;
+        for (const ContactPlace& other : structure.places) {
+          for (const int j : {other.c, other.plus}) {
+            if (j >= 0 && row[j] != 0.0) {
+              structure.column.push_back(column);
+              structure.entry.push_back(row[j]);
+              if (column == own) diagonal = row[j];
+            }
+            ++column;
+          }
+        }
+      }
+      structure.b.push_back(i >= 0 ? problem.q[static_cast<std::size_t>(i)] : 0.0);
+      structure.diagonal.push_back(diagonal);
+      structure.row_begin.push_back(structure.column.size());
+    }
+  }
+}
+
+void contact_row_sizes(const LcpProblem& problem, const std::vector<ContactPlace>& places, std::vector<double>& sizes) {
+  double speed = 0.0;
+  for (const double q_i : problem.q) speed = std::max(speed, std::abs(q_i));
+  sizes.assign(problem.size(), speed);
+  for (const ContactPlace& p : places) {
+    if (p.s < 0) continue;
+    const auto of = static_cast<std::size_t>(p.c >= 0 ? p.c : p.plus);
+    sizes[static_cast<std::size_t>(p.s)] = p.cone * speed / problem(of, of);
+  }
+}
+
+}  // namespace tumble

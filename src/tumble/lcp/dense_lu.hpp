@@ -1,0 +1,75 @@
+// LU factors with partial pivoting, in place, for any real type, without allocating once warm. Not a public header.
+//
+// Eigen's PartialPivLU allocates its permutation at every change of size, and the bases of pivoting methods change size
+// with every pivot; the order of the sums here is fixed, whatever the compiler.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace tumble {
+
+template <class Real>
+class DenseLu {
+ public:
+  // Room for a k x k matrix, row after row, to be filled in before `factor`.
+  std::vector<Real>& start(std::size_t k) {
+    k_ = k;
+    entries_.resize(k * k);
+    order_.resize(k);
+    return entries_;
+  }
+
+  // False if a pivot is exactly 0: the matrix is singular.
+  bool factor() {
+    using std::abs;
+    for (std::size_t i = 0; i < k_; ++i) order_[i] = i;
+    for (std::size_t c = 0; c < k_; ++c) {
+      std::size_t best = c;
+      for (std::size_t i = c + 1; i < k_; ++i) {
+        if (abs(at(i, c)) > abs(at(best, c))) best = i;
+      }
+      if (!(abs(at(best, c)) > Real(0))) return false;
+      if (best != c) {
+        std::swap_ranges(row(best), row(best) + k_, row(c));
+        std::swap(order_[best], order_[c]);
+      }
+      const Real inverse = Real(1) / at(c, c);
+      for (std::size_t i = c + 1; i < k_; ++i) {
+        if (at(i, c) == Real(0)) continue;
+        const Real factor = at(i, c) * inverse;
+        at(i, c) = factor;
+        const Real* from = row(c);
+        Real* to = row(i);
+        for (std::size_t j = c + 1; j < k_; ++j) to[j] -= factor * from[j];
+      }
+    }
+    return true;
+  }
+
+  // x with A x = b; b and x have k entries and may not overlap.
+  void solve(const Real* b, Real* x) const {
+    for (std::size_t i = 0; i < k_; ++i) {
+      Real sum = b[order_[i]];
+      for (std::size_t j = 0; j < i; ++j) sum -= entries_[i * k_ + j] * x[j];
+      x[i] = sum;
+    }
+    for (std::size_t i = k_; i-- > 0;) {
+      Real sum = x[i];
+      for (std::size_t j = i + 1; j < k_; ++j) sum -= entries_[i * k_ + j] * x[j];
+      x[i] = sum / entries_[i * k_ + i];
+    }
+  }
+
+ private:
+  Real& at(std::size_t i, std::size_t j) { return entries_[i * k_ + j]; }
+  Real* row(std::size_t i) { return entries_.data() + i * k_; }
+
+  std::size_t k_ = 0;
+  std::vector<Real> entries_;
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,76 @@
+#include "tumble/lcp/rung.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace tumble {
+
+LcpWorkspace::LcpWorkspace() : buffers_(std::make_unique<Buffers>()) {}
+LcpWorkspace::~LcpWorkspace() = default;
+LcpWorkspace::LcpWorkspace(LcpWorkspace&&) noexcept = default;
+LcpWorkspace& LcpWorkspace::operator=(LcpWorkspace&&) noexcept = default;
+
+void prepare(const LcpProblem& problem, LcpWorkspace& workspace) {
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  scale(problem, buffers.scaled);
+  buffers.row_sizes = problem.row_sizes;
+  if (problem.row_sizes.empty()) round_off_sizes(problem, buffers.scaled.scales, buffers.row_sizes);
+  LcpResult& result = workspace.result;
+  result.status = LcpStatus::numerical;
+  result.z.clear();
+  result.w.clear();
+  result.residual = std::numeric_limits<double>::infinity();
+  result.parts = {result.residual, result.residual, result.residual};
+  result.pivots = 0;
+  result.refactorisations = 0;
+  result.rung = LcpRung::none;
+  result.basis.assign(problem.size(), 0);
+  result.certificate.clear();
+}
+
+bool solve_trivially(const LcpProblem& problem, LcpWorkspace& workspace) {
+  if (std::any_of(problem.q.begin(), problem.q.end(), [](double x) { return !(x >= 0.0); })) return false;
+  LcpResult& result = workspace.result;
+  result.status = LcpStatus::solved;
+  result.z.assign(problem.size(), 0.0);
+  result.w = problem.q;
+  result.residual = 0.0;
+  result.parts = {};
+  return true;
+}
+
+void judge_candidate(const LcpProblem& problem, LcpWorkspace& workspace) {
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  LcpResult& result = workspace.result;
+  const LcpResidual parts = judge(problem, buffers.row_sizes, buffers.z, buffers.w, buffers.judge);
+  if (!result.z.empty() && !(parts.largest() < result.residual)) return;
+  result.parts = parts;
+  result.residual = parts.largest();
+  std::swap(result.z, buffers.z);
+  std::swap(result.w, buffers.w);
+}
+
+bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& buffers) {
+  const ScaledProblem& problem = buffers.scaled;
+  buffers.z_scaled.assign(problem.size(), 0.0);
+  std::vector<std::size_t>& rows = buffers.basic_rows;
+  rows.clear();
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    if (basis[i]) rows.push_back(i);
+  }
+  const std::size_t k = rows.size();
+  std::vector<double>& entries = buffers.lu.start(k);
+  buffers.right.resize(k);
+  buffers.solution.resize(k);
+  for (std::size_t i = 0; i < k; ++i) {
+    for (std::size_t j = 0; j < k; ++j) entries[i * k + j] = problem(rows[i], rows[j]);
+    buffers.right[i] = -problem.q[rows[i]];
+  }
+  if (!buffers.lu.factor()) return false;
+  buffers.lu.solve(buffers.right.data(), buffers.solution.data());
+  for (std::size_t i = 0; i < k; ++i) buffers.z_scaled[rows[i]] = buffers.solution[i];
+  return true;
+}
+
+}  // namespace tumble

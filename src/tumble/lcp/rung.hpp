@@ -1,0 +1,34 @@
+// What the methods share: a problem made ready, and candidates judged against it. Not a public header.
+#pragma once
+
+#include "tumble/lcp/buffers.hpp"
+#include "tumble/lcp/lemke.hpp"
+#include "tumble/lcp/lemke_lu.hpp"
+#include "tumble/lcp/problem.hpp"
+#include "tumble/lcp/robust.hpp"
+#include "tumble/lcp/workspace.hpp"
+
+namespace tumble {
+
+// Scales the problem and finds its row sizes, into the buffers; clears `result`. The problem must be valid.
+void prepare(const LcpProblem& problem, LcpWorkspace& workspace);
+
+// q >= 0 is solved by z = 0: true, and the result filled, if that is so.
+bool solve_trivially(const LcpProblem& problem, LcpWorkspace& workspace);
+
+// Judges buffers.z, and takes it, with its w, as the result if it is better than what the result holds.
+void judge_candidate(const LcpProblem& problem, LcpWorkspace& workspace);
+
+// Solves M_BB z_B = -q_B for the basis given, in scaled numbers, into buffers.z_scaled. False if M_BB is singular.
+bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& buffers);
+
+// Lemke's method on a prepared problem. Improves workspace.result, adds to its pivots, sets its status.
+void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWorkspace& workspace);
+
+// The same with fresh factors at every pivot.
+void run_lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspace& workspace);
+
+// The whole ladder, on a valid problem.
+void run_robust(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace);
+
+}  // namespace tumble
