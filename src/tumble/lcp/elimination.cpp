@@ -1,15 +1,6 @@
 #include "tumble/lcp/elimination.hpp"
 
-// One copy per instruction set, picked when the program is loaded; baseline elsewhere. Contraction is off in all of
-// them (cmake/TumbleTarget.cmake), so their results are equal bit for bit.
-#if defined(__x86_64__) && defined(__ELF__) && defined(__has_attribute) && !defined(__SANITIZE_ADDRESS__)
-#if __has_attribute(target_clones)
-#define TUMBLE_INSTRUCTION_SETS __attribute__((target_clones("avx512f", "avx2", "default")))
-#endif
-#endif
-#ifndef TUMBLE_INSTRUCTION_SETS
-#define TUMBLE_INSTRUCTION_SETS
-#endif
+#include "tumble/math/instruction_sets.hpp"
 
 namespace tumble {
 
