@@ -92,7 +92,7 @@ TEST(KnownProblems, EnumerationProvesThatThereIsNoSolution) {
 
 TEST(KnownProblems, LemkeFindsASolutionOrSaysThatItFoundNone) {
   for (const KnownProblem& known : known_problems()) {
-    const LcpResult result = solve_lcp(known.problem);
+    const LcpResult result = lemke(known.problem);
     if (known.vertices.empty() || !known.lemke_finds_one) {
       EXPECT_EQ(result.status, LcpStatus::ray_unproven) << known.name;
       continue;

@@ -1,6 +1,8 @@
 // What an LcpWorkspace holds. Not a public header.
 #pragma once
 
+#include "tumble/lcp/contact_modes.hpp"
+#include "tumble/lcp/contact_structure.hpp"
 #include "tumble/lcp/dense_lu.hpp"
 #include "tumble/lcp/judge.hpp"
 #include "tumble/lcp/lu_basis.hpp"
@@ -12,7 +14,10 @@ namespace tumble {
 
 struct LcpWorkspace::Buffers {
   ScaledProblem scaled;
-  std::vector<double> row_sizes;
+  bool has_contacts = false;
+  ContactStructure contacts;  // filled if has_contacts
+  ContactModes modes;
+  std::vector<double> row_sizes, other_row_sizes;
   JudgeBuffers judge;
   Tableau tableau;
   DenseLu<double> lu;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tumble {
@@ -14,42 +15,51 @@ double slip_direction(ContactMode mode) {
   return mode == ContactMode::slip_left ? -1.0 : mode == ContactMode::slip_right ? 1.0 : 0.0;
 }
 
+constexpr double k_ridge = 1e-10;      // [-] of the diagonal
+constexpr double k_round_off = 1e-13;  // relative: contradictions below are not real
+
 bool has_friction(const ContactPlace& place) { return place.s >= 0 && place.c >= 0 && place.friction > 0.0; }
 
 }  // namespace
 
-void ContactModes::guess(const ContactStructure& structure) {
+void ContactModes::start(const ContactStructure& structure) {
   const Index m = structure.places.size();
-  f_.assign(2 * m, 0.0);
+  swept_.assign(2 * m, 0.0);
   modes.assign(m, ContactMode::open);
+}
+
+void ContactModes::sweep(const ContactStructure& structure, int num_sweeps) {
+  std::vector<double>& f = swept_;
   const auto velocity = [&](Index row) {
     double sum = structure.b[row];
     for (Index e = structure.row_begin[row]; e < structure.row_begin[row + 1]; ++e) {
-      sum += structure.entry[e] * f_[static_cast<Index>(structure.column[e])];
+      sum += structure.entry[e] * f[static_cast<Index>(structure.column[e])];
     }
     return sum;
   };
-  for (int sweep = 0; sweep < 2; ++sweep) {
-    for (Index i = 0; i < m; ++i) {
+  for (int sweep = 0; sweep < num_sweeps; ++sweep) {
+    for (Index i = 0; i < structure.places.size(); ++i) {
       const ContactPlace& place = structure.places[i];
       if (place.c < 0) continue;
-      const double A_nn = structure.diagonal[2 * i];
-      const double u_n = velocity(2 * i) - A_nn * f_[2 * i];
-      if (u_n >= 0.0) {
-        f_[2 * i] = f_[2 * i + 1] = 0.0;
-        modes[i] = ContactMode::open;
-      } else {
-        f_[2 * i] = -u_n / A_nn;
-        modes[i] = has_friction(place) ? ContactMode::stick : ContactMode::slip_right;
-      }
-      if (!has_friction(place) || modes[i] == ContactMode::open) continue;
-      const double limit = place.mu() * f_[2 * i];
-      const double A_tt = structure.diagonal[2 * i + 1];
-      const double f_t = f_[2 * i + 1] - velocity(2 * i + 1) / A_tt;
-      f_[2 * i + 1] = std::clamp(f_t, -limit, limit);
+      const double f_n = f[2 * i] - velocity(2 * i) / structure.diagonal[2 * i];
+      f[2 * i] = std::max(f_n, 0.0);
+      modes[i] = !(f_n > 0.0) ? ContactMode::open : has_friction(place) ? ContactMode::stick : ContactMode::slip_right;
+      if (!has_friction(place)) continue;
+      const double limit = place.mu() * f[2 * i];
+      const double f_t =
+          modes[i] == ContactMode::open ? 0.0 : f[2 * i + 1] - velocity(2 * i + 1) / structure.diagonal[2 * i + 1];
+      f[2 * i + 1] = std::clamp(f_t, -limit, limit);
       if (f_t < -limit) modes[i] = ContactMode::slip_right;
       if (f_t > limit) modes[i] = ContactMode::slip_left;
     }
+  }
+}
+
+void ContactModes::hold(const ContactStructure& structure) {
+  for (Index i = 0; i < modes.size(); ++i) {
+    const bool slid_before = slip_direction(modes[i]) * structure.b[2 * i + 1] > 0.0;
+    if (has_friction(structure.places[i]) && modes[i] != ContactMode::open && !slid_before)
+      modes[i] = ContactMode::stick;
   }
 }
 
@@ -83,13 +93,12 @@ void ContactModes::list_unknowns(const ContactStructure& structure) {
 }
 
 // Rows of A for the unknowns. In a contact that slips, f_t = -direction mu f_n is no unknown of its own.
+// Contacts that depend on each other make the equations singular: the ridge lets them share their load.
 void ContactModes::fill_equations(const ContactStructure& structure) {
   const Index k = unknown_.size();
   matrix_.assign(k * k, 0.0);
-  right_.resize(k);
   first_.resize(k);
   last_.resize(k);
-  pivot_size_.resize(k);
   for (Index i = 0; i < k; ++i) {
     const auto row = static_cast<Index>(unknown_[i]);
     double* equation = matrix_.data() + i * k;
@@ -110,105 +119,248 @@ void ContactModes::fill_equations(const ContactStructure& structure) {
     }
     first_[i] = first;
     last_[i] = last;
-    right_[i] = -structure.b[row];
-    pivot_size_[i] = std::abs(structure.diagonal[row]);
+    equation[i] += k_ridge * structure.diagonal[row];
   }
 }
 
-// LU in place, within the profile, without exchanges. An equation that depends on those before it gets the pivot 0; its
-// unknown stays 0, and the equation holds by itself if the system is consistent.
-void ContactModes::factor() {
-  constexpr double dependent = 1e-11;  // of the pivot before elimination
+// LU in place, within the profile, without exchanges.
+void ContactModes::factor(const ContactStructure& structure) {
+  list_unknowns(structure);
+  fill_equations(structure);
   const Index k = unknown_.size();
   for (Index i = 0; i < k; ++i) {
     double* row = matrix_.data() + i * k;
     for (auto c = static_cast<Index>(first_[i]); c < i; ++c) {
-      const double* from = matrix_.data() + c * k;
       if (row[c] == 0.0) continue;
-      if (from[c] == 0.0) {
-        row[c] = 0.0;
-        continue;
-      }
+      const double* from = matrix_.data() + c * k;
       const double factor = row[c] / from[c];
       row[c] = factor;
       const auto end = static_cast<Index>(last_[c]) + 1;
       for (Index j = c + 1; j < end; ++j) row[j] -= factor * from[j];
       last_[i] = std::max(last_[i], last_[c]);
-      right_[i] -= factor * right_[c];
     }
-    if (std::abs(row[i]) <= dependent * pivot_size_[i]) row[i] = 0.0;
+    if (row[i] == 0.0) row[i] = k_ridge * std::abs(structure.diagonal[static_cast<Index>(unknown_[i])]);
   }
 }
 
-void ContactModes::solve(const ContactStructure& structure) {
-  list_unknowns(structure);
-  fill_equations(structure);
-  factor();
+// The impulses with which the velocities that the modes hold at 0 are 0, for b in place of the structure's own.
+void ContactModes::find_impulses(const ContactStructure& structure, const std::vector<double>& b,
+                                 std::vector<double>& f) {
   const Index k = unknown_.size();
-  std::vector<double>& x = right_;
+  std::vector<double>& x = solution_;
+  x.resize(k);
+  for (Index i = 0; i < k; ++i) {
+    const double* row = matrix_.data() + i * k;
+    double sum = -b[static_cast<Index>(unknown_[i])];
+    for (auto j = static_cast<Index>(first_[i]); j < i; ++j) sum -= row[j] * x[j];
+    x[i] = sum;
+  }
   for (Index i = k; i-- > 0;) {
     const double* row = matrix_.data() + i * k;
-    if (row[i] == 0.0) {
-      x[i] = 0.0;
-      continue;
-    }
     double sum = x[i];
     for (Index j = i + 1; j <= static_cast<Index>(last_[i]); ++j) sum -= row[j] * x[j];
     x[i] = sum / row[i];
   }
-  f_.assign(2 * structure.places.size(), 0.0);
-  for (Index i = 0; i < k; ++i) f_[static_cast<Index>(unknown_[i])] = x[i];
+  f.assign(2 * structure.places.size(), 0.0);
+  for (Index i = 0; i < k; ++i) f[static_cast<Index>(unknown_[i])] = x[i];
   for (Index i = 0; i < structure.places.size(); ++i) {
     const double direction = slip_direction(modes[i]);
     if (direction != 0.0 && has_friction(structure.places[i])) {
-      f_[2 * i + 1] = -direction * structure.places[i].mu() * f_[2 * i];
+      f[2 * i + 1] = -direction * structure.places[i].mu() * f[2 * i];
     }
   }
 }
 
-void ContactModes::find_velocities(const ContactStructure& structure) {
-  u_.resize(f_.size());
-  for (Index row = 0; row < u_.size(); ++row) {
+// u = A f + b.
+void ContactModes::find_velocities(const ContactStructure& structure, const std::vector<double>& f,
+                                   const std::vector<double>& b, std::vector<double>& u) const {
+  u.resize(f.size());
+  for (Index row = 0; row < u.size(); ++row) {
     double sum = 0.0;
     for (Index e = structure.row_begin[row]; e < structure.row_begin[row + 1]; ++e) {
-      sum += structure.entry[e] * f_[static_cast<Index>(structure.column[e])];
+      sum += structure.entry[e] * f[static_cast<Index>(structure.column[e])];
     }
-    u_[row] = sum + structure.b[row];
+    u[row] = sum + b[row];
   }
 }
 
-int ContactModes::change_modes(const ContactStructure& structure, double speed) {
-  const double tolerance = 1e-13 * speed;
-  int num_changes = 0;
-  for (Index i = 0; i < modes.size(); ++i) {
-    const ContactPlace& place = structure.places[i];
-    if (place.c < 0) continue;
-    const double f_n = f_[2 * i], f_t = f_[2 * i + 1], u_n = u_[2 * i], u_t = u_[2 * i + 1];
-    ContactMode mode = modes[i];
-    if (mode == ContactMode::open) {
-      if (u_n < -tolerance) mode = has_friction(place) ? ContactMode::stick : ContactMode::slip_right;
-    } else if (f_n * structure.diagonal[2 * i] < -tolerance) {
-      mode = ContactMode::open;
-    } else if (mode == ContactMode::stick) {
-      if ((std::abs(f_t) - place.mu() * f_n) * structure.diagonal[2 * i + 1] > tolerance) {
-        mode = f_t > 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
-      }
-    } else if (has_friction(place) && slip_direction(mode) * u_t < -tolerance) {
-      mode = ContactMode::stick;
+void ContactModes::find_sizes(const ContactStructure& structure) {
+  double speed = 0.0;
+  for (const double b_i : structure.b) speed = std::max(speed, std::abs(b_i));
+  size_.resize(f_.size());
+  for (Index row = 0; row < size_.size(); ++row) {
+    double size = speed;
+    for (Index e = structure.row_begin[row]; e < structure.row_begin[row + 1]; ++e) {
+      size += std::abs(structure.entry[e] * f_[static_cast<Index>(structure.column[e])]);
     }
-    num_changes += mode != modes[i];
-    modes[i] = mode;
+    size_[row] = size;
   }
+}
+
+// Takes away what the ridge did to f: the velocities that the modes hold at 0 are made 0, up to round-off.
+void ContactModes::refine(const ContactStructure& structure) {
+  constexpr int max_refinements = 4;
+  for (int count = 0;; ++count) {
+    find_velocities(structure, f_, structure.b, u_);
+    find_sizes(structure);
+    double largest = 0.0;
+    for (const int row : unknown_) {
+      const auto i = static_cast<Index>(row);
+      largest = std::max(largest, std::abs(u_[i]) / size_[i]);
+    }
+    if (count == max_refinements || largest <= k_round_off / 100.0) return;
+    find_impulses(structure, u_, f_slope_);
+    for (Index i = 0; i < f_.size(); ++i) f_[i] += f_slope_[i];
+  }
+}
+
+// What a contact's impulse and velocity say against its mode: the mode it should have instead, and by how much they
+// contradict, relative to the terms that the velocity is a sum of.
+ContactModes::Objection ContactModes::objection(const ContactStructure& structure, Index i) const {
+  const ContactPlace& place = structure.places[i];
+  const double f_n = f_[2 * i], f_t = f_[2 * i + 1], u_n = u_[2 * i], u_t = u_[2 * i + 1];
+  const double size_n = size_[2 * i], size_t = size_[2 * i + 1];
+  const bool has_cone = has_friction(place);
+  if (modes[i] == ContactMode::open) {
+    return {has_cone ? ContactMode::stick : ContactMode::slip_right, -u_n / size_n};
+  }
+  const double pull = -f_n * structure.diagonal[2 * i] / size_n;
+  if (pull > k_round_off || !has_cone) return {ContactMode::open, pull};
+  if (modes[i] == ContactMode::stick) {
+    const double excess = (std::abs(f_t) - place.mu() * f_n) * structure.diagonal[2 * i + 1] / size_t;
+    return {f_t > 0.0 ? ContactMode::slip_left : ContactMode::slip_right, excess};
+  }
+  return {ContactMode::stick, -slip_direction(modes[i]) * u_t / size_t};
+}
+
+// The number of contradictions found; none is left if it is 0.
+int ContactModes::change_modes(const ContactStructure& structure, Change change) {
+  int num_changes = 0;
+  Index worst = 0;
+  Objection worst_objection{ContactMode::open, k_round_off};
+  for (Index i = 0; i < modes.size(); ++i) {
+    if (structure.places[i].c < 0) continue;
+    const Objection found = objection(structure, i);
+    if (!(found.size > k_round_off)) continue;
+    ++num_changes;
+    if (change == Change::all) {
+      modes[i] = found.mode;
+    } else if (found.size > worst_objection.size) {
+      worst = i;
+      worst_objection = found;
+    }
+  }
+  if (change == Change::worst && num_changes > 0) modes[worst] = worst_objection.mode;
   return num_changes;
 }
 
-bool ContactModes::run(const ContactStructure& structure, double speed, int max_rounds) {
-  for (rounds_ = 1; rounds_ <= max_rounds; ++rounds_) {
-    solve(structure);
-    find_velocities(structure);
-    if (change_modes(structure, speed) == 0) return true;
+bool ContactModes::run(const ContactStructure& structure, Change change, int max_rounds) {
+  seen_.clear();
+  for (rounds_ = 1;; ++rounds_) {
+    factor(structure);
+    find_impulses(structure, structure.b, f_);
+    refine(structure);
+    if (change_modes(structure, change) == 0) return true;
+    if (rounds_ == max_rounds || is_seen()) return false;
+  }
+}
+
+// b + lambda drift is a problem that the impulses of the sweeps solve for lambda = 1, and the one asked for is at 0.
+void ContactModes::find_drift(const ContactStructure& structure) {
+  find_velocities(structure, swept_, structure.b, u_);
+  drift_.assign(u_.size(), 0.0);
+  for (Index i = 0; i < modes.size(); ++i) {
+    const Index n = 2 * i, t = n + 1;
+    if (modes[i] == ContactMode::open) {
+      drift_[n] = std::abs(u_[n]) - u_[n];
+      continue;
+    }
+    drift_[n] = -u_[n];
+    drift_[t] = slip_direction(modes[i]) * std::abs(u_[t]) - u_[t];
+  }
+}
+
+// Conditions of contact i in its mode: value >= 0, the mode that follows where it reaches 0. At most two.
+int ContactModes::list_conditions(const ContactStructure& structure, Index i, const std::vector<double>& f,
+                                  const std::vector<double>& u, std::array<double, 2>& values) const {
+  const Index n = 2 * i, t = n + 1;
+  const double limit = structure.places[i].mu() * f[n];
+  switch (modes[i]) {
+    case ContactMode::open: values[0] = u[n]; return 1;
+    case ContactMode::stick: values = {limit - f[t], limit + f[t]}; return 2;
+    default: values = {f[n], slip_direction(modes[i]) * u[t]}; return has_friction(structure.places[i]) ? 2 : 1;
+  }
+}
+
+ContactMode ContactModes::next_mode(const ContactStructure& structure, Index i, int condition, double u_t) const {
+  switch (modes[i]) {
+    case ContactMode::open:
+      return has_friction(structure.places[i]) && u_t < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
+    case ContactMode::stick: return condition == 0 ? ContactMode::slip_left : ContactMode::slip_right;
+    default: return condition == 0 ? ContactMode::open : ContactMode::stick;
+  }
+}
+
+// The condition in which a mode just taken is at its border: the one that must grow from there on.
+int ContactModes::border_condition(ContactMode from, ContactMode to) {
+  if (to == ContactMode::stick) return from == ContactMode::slip_left ? 0 : 1;
+  return from == ContactMode::stick ? 1 : 0;
+}
+
+bool ContactModes::follow(const ContactStructure& structure, int max_steps) {
+  constexpr double largest_lambda = 4.0;  // far back is the way to a ray
+  find_drift(structure);
+  double lambda = 1.0, sign = -1.0;
+  Index changed = modes.size();
+  int border = 0;
+  seen_.clear();
+  for (rounds_ = 1; rounds_ <= max_steps; ++rounds_) {
+    factor(structure);
+    find_impulses(structure, structure.b, f_);
+    find_impulses(structure, drift_, f_slope_);
+    find_velocities(structure, f_, structure.b, u_);
+    find_velocities(structure, f_slope_, drift_, u_slope_);
+    std::array<double, 2> value{}, slope{};
+    if (changed < modes.size()) {
+      list_conditions(structure, changed, f_slope_, u_slope_, slope);
+      sign = slope[static_cast<Index>(border)] > 0.0 ? 1.0 : -1.0;
+    }
+    double step = sign < 0.0 ? lambda : std::numeric_limits<double>::infinity();
+    Index next = modes.size();
+    int next_condition = 0;
+    for (Index i = 0; i < modes.size(); ++i) {
+      if (structure.places[i].c < 0) continue;
+      const int count = list_conditions(structure, i, f_, u_, value);
+      list_conditions(structure, i, f_slope_, u_slope_, slope);
+      for (int k = 0; k < count; ++k) {
+        if (i == changed && k == border) continue;
+        const double rate = -sign * slope[static_cast<Index>(k)];
+        const double rest = std::max(value[static_cast<Index>(k)] + lambda * slope[static_cast<Index>(k)], 0.0);
+        if (rate > 0.0 && rest < step * rate) {
+          step = rest / rate;
+          next = i;
+          next_condition = k;
+        }
+      }
+    }
+    if (next == modes.size()) return sign < 0.0;
+    lambda += sign * step;
+    const ContactMode from = modes[next];
+    modes[next] = next_mode(structure, next, next_condition, u_[2 * next + 1] + lambda * u_slope_[2 * next + 1]);
+    border = border_condition(from, modes[next]);
+    changed = next;
+    if (is_seen() || lambda > largest_lambda) return false;
   }
   return false;
+}
+
+// True if these modes were tried before: the rounds would go in a circle.
+bool ContactModes::is_seen() {
+  std::uint64_t hash = 1469598103934665603u;  // FNV-1a
+  for (const ContactMode mode : modes) hash = (hash ^ static_cast<std::uint64_t>(mode)) * 1099511628211u;
+  const bool is_seen = std::find(seen_.begin(), seen_.end(), hash) != seen_.end();
+  seen_.push_back(hash);
+  return is_seen;
 }
 
 void ContactModes::write(const ContactStructure& structure, std::vector<double>& z,

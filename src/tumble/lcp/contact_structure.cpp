@@ -31,29 +31,61 @@ bool read_cone(const LcpProblem& problem, int s, ContactPlace& place) {
   return place.minus >= 0;
 }
 
-// Rows and columns of plus and minus are each other's negatives, and column s acts on them alone.
+// x and y, entries of row i and column j, differ by no more than the round-off of the products they were formed from,
+// which is proportional to the diagonal of A where A is semidefinite. Where there is no diagonal they must be equal.
+bool is_near(const LcpProblem& problem, std::size_t i, std::size_t j, double x, double y) {
+  constexpr double round_off = 3e-14;
+  return x == y || (x - y) * (x - y) <= round_off * round_off * problem(i, i) * problem(j, j);
+}
+
+// Rows of plus and minus are each other's negatives, but for the slip, of which both hold the same share > 0.
 bool has_friction_rows(const LcpProblem& problem, const std::vector<ContactPlace>& places) {
   const std::size_t n = problem.size();
+  double speed = 0.0;
+  for (const double q_i : problem.q) speed = std::max(speed, std::abs(q_i));
   for (const ContactPlace& p : places) {
-    if (p.s < 0) continue;
     const auto plus = static_cast<std::size_t>(p.plus), minus = static_cast<std::size_t>(p.minus);
-    if (problem.q[plus] != -problem.q[minus]) return false;
+    if (!(std::abs(problem.q[plus] + problem.q[minus]) <= 1e-15 * speed)) return false;
     const double* row_plus = problem.M.data() + plus * n;
     const double* row_minus = problem.M.data() + minus * n;
     for (std::size_t j = 0; j < n; ++j) {
       const bool is_slip = static_cast<int>(j) == p.s;
-      if (row_plus[j] != (is_slip ? row_minus[j] : -row_minus[j])) return false;
+      if (!is_near(problem, plus, j, row_plus[j], is_slip ? row_minus[j] : -row_minus[j])) return false;
     }
     if (!(row_plus[p.s] > 0.0)) return false;
   }
+  return true;
+}
+
+// Columns of plus and minus are each other's negatives, but for the cone; column s acts on plus and minus alone.
+bool has_friction_columns(const LcpProblem& problem, const std::vector<ContactPlace>& places) {
+  const std::size_t n = problem.size();
   for (std::size_t i = 0; i < n; ++i) {
     const double* row = problem.M.data() + i * n;
     for (const ContactPlace& p : places) {
-      if (p.s < 0) continue;
       const int row_index = static_cast<int>(i);
       const bool is_own = row_index == p.plus || row_index == p.minus;
       if (!is_own && row[p.s] != 0.0) return false;
-      if (row_index != p.s && row[p.plus] != -row[p.minus]) return false;
+      const auto plus = static_cast<std::size_t>(p.plus);
+      if (row_index != p.s && !is_near(problem, i, plus, row[p.plus], -row[p.minus])) return false;
+    }
+  }
+  return true;
+}
+
+// Rows of A are velocities in one unit, impulses too: A is symmetric, with a diagonal > 0.
+bool is_symmetric(const LcpProblem& problem, const std::vector<ContactPlace>& places) {
+  for (std::size_t a = 0; a < places.size(); ++a) {
+    for (const int i : {places[a].c, places[a].plus}) {
+      if (i < 0) continue;
+      const auto row = static_cast<std::size_t>(i);
+      if (!(problem(row, row) > 0.0)) return false;
+      for (std::size_t b = 0; b <= a; ++b) {
+        for (const int j : {places[b].c, places[b].plus}) {
+          const auto column = static_cast<std::size_t>(j);
+          if (j >= 0 && !is_near(problem, row, column, problem(row, column), problem(column, row))) return false;
+        }
+      }
     }
   }
   return true;
@@ -84,13 +116,13 @@ bool find_contacts(const LcpProblem& problem, ContactStructure& structure) {
     }
     places.push_back(p);
   }
-  if (!has_friction_rows(problem, places)) return false;
+  if (places.empty() || !has_friction_rows(problem, places) || !has_friction_columns(problem, places)) return false;
   for (ContactPlace& p : places) p.slip = problem(static_cast<std::size_t>(p.plus), static_cast<std::size_t>(p.s));
   for (int j = 0; j < n; ++j) {  // what no cone names is a normal of its own
     if (owner[static_cast<std::size_t>(j)] >= 0) continue;
     places.emplace_back().c = j;
   }
-  return true;
+  return is_symmetric(problem, places);
 }
 
 void read_responses(const LcpProblem& problem, ContactStructure& structure) {

@@ -37,8 +37,8 @@ struct ContactStructure {
   std::vector<double> b;         // 2 m
 };
 
-// True if every unknown belongs to a contact as above; `places` is then filled. Exact comparisons: the entries of plus
-// and minus must be each other's negatives.
+// True if every unknown belongs to a contact as above, one of them at least with friction, and A is symmetric; `places`
+// is then filled. Entries that should be equal may differ by the round-off of forming them.
 bool find_contacts(const LcpProblem& problem, ContactStructure& structure);
 
 // Fills A and b from the problem.

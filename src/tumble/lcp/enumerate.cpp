@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "tumble/lcp/equilibrate.hpp"
+#include "tumble/lcp/require.hpp"
 #include "tumble/lcp/residual.hpp"
 
 namespace tumble {
@@ -137,27 +138,26 @@ class Enumeration {
   bool is_clear_ = true;
 };
 
-void validate(const LcpProblem& problem, const EnumerateSettings& settings) {
+void check(const LcpProblem& problem, const EnumerateSettings& settings) {
   validate(problem);
   if (problem.size() > k_max_enumerate_size) {
     throw std::invalid_argument(fmt::format("q: enumeration takes at most {} entries (it tries 2^n bases), got {}",
                                             k_max_enumerate_size, problem.size()));
   }
-  if (!(settings.accepted_residual > 0.0 && settings.accepted_residual <= k_largest_accepted_residual)) {
-    throw std::invalid_argument(fmt::format("accepted_residual: must be in (0, {}], got {}",
-                                            k_largest_accepted_residual, settings.accepted_residual));
-  }
+  validate(settings);
 }
 
 }  // namespace
 
+void validate(const EnumerateSettings& settings) { require_accepted_residual(settings.accepted_residual); }
+
 std::vector<LcpResult> enumerate_solutions(const LcpProblem& problem, const EnumerateSettings& settings) {
-  validate(problem, settings);
+  check(problem, settings);
   return Enumeration(problem, settings).run();
 }
 
 LcpResult enumerate(const LcpProblem& problem, const EnumerateSettings& settings) {
-  validate(problem, settings);
+  check(problem, settings);
   Enumeration enumeration(problem, settings);
   std::vector<LcpResult> solutions = enumeration.run();
   if (!solutions.empty()) return std::move(solutions.front());

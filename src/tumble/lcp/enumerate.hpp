@@ -12,6 +12,9 @@ struct EnumerateSettings {
   double accepted_residual = 1e-9;  // [-] in (0, 0.01]: a basis counts as a solution up to this residual
 };
 
+// Throws std::invalid_argument for a setting outside its range.
+void validate(const EnumerateSettings& settings);
+
 inline constexpr std::size_t k_max_enumerate_size = 12;
 
 // All vertex solutions of the problem, n <= 12, in the order of their bases read as binary numbers (z_0 the lowest

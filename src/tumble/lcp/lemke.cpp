@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
 
 namespace tumble {
@@ -98,16 +96,10 @@ std::vector<double> textbook_tableau(const ScaledProblem& problem, const Tableau
 }  // namespace
 
 void validate(const LemkeSettings& settings) {
-  const auto refuse = [](const char* field, double value, const char* range) {
-    throw std::invalid_argument(fmt::format("{}: must be {}, got {}", field, range, value));
-  };
-  if (settings.max_pivots < 0) refuse("max_pivots", settings.max_pivots, ">= 0");
-  if (!(settings.pivot_tolerance >= 0.0 && settings.pivot_tolerance < 1.0)) {
-    refuse("pivot_tolerance", settings.pivot_tolerance, "in [0, 1)");
-  }
-  if (!(settings.accepted_residual > 0.0 && settings.accepted_residual <= k_largest_accepted_residual)) {
-    refuse("accepted_residual", settings.accepted_residual, "in (0, 0.01]");
-  }
+  require(settings.max_pivots >= 0, "max_pivots", ">= 0", settings.max_pivots);
+  require(settings.pivot_tolerance >= 0.0 && settings.pivot_tolerance < 1.0, "pivot_tolerance", "in [0, 1)",
+          settings.pivot_tolerance);
+  require_accepted_residual(settings.accepted_residual);
 }
 
 void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWorkspace& workspace) {

@@ -1,13 +1,12 @@
 #include "tumble/lcp/lemke_lu.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <fmt/format.h>
 
 #include "tumble/lcp/lu_basis.hpp"
+#include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
 
 namespace tumble {
@@ -124,17 +123,11 @@ LcpStatus walk(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWo
 }  // namespace
 
 void validate(const LemkeLuSettings& settings) {
-  const auto refuse = [](const char* field, double value, const char* range) {
-    throw std::invalid_argument(fmt::format("{}: must be {}, got {}", field, range, value));
-  };
-  if (settings.max_pivots < 0) refuse("max_pivots", settings.max_pivots, ">= 0");
-  if (!(settings.pivot_tolerance >= 0.0 && settings.pivot_tolerance < 1.0)) {
-    refuse("pivot_tolerance", settings.pivot_tolerance, "in [0, 1)");
-  }
-  if (!(settings.accepted_residual > 0.0 && settings.accepted_residual <= k_largest_accepted_residual)) {
-    refuse("accepted_residual", settings.accepted_residual, "in (0, 0.01]");
-  }
-  if (!(settings.ridge >= 0.0 && settings.ridge <= 1e-6)) refuse("ridge", settings.ridge, "in [0, 1e-6]");
+  require(settings.max_pivots >= 0, "max_pivots", ">= 0", settings.max_pivots);
+  require(settings.pivot_tolerance >= 0.0 && settings.pivot_tolerance < 1.0, "pivot_tolerance", "in [0, 1)",
+          settings.pivot_tolerance);
+  require_accepted_residual(settings.accepted_residual);
+  require(settings.ridge >= 0.0 && settings.ridge <= 1e-6, "ridge", "in [0, 1e-6]", settings.ridge);
 }
 
 void run_lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspace& workspace) {
@@ -158,13 +151,9 @@ void run_lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings, Lc
 LcpResult lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings) {
   validate(problem);
   validate(settings);
-  if (!settings.start_basis.empty() && settings.start_basis.size() != problem.size()) {
-    throw std::invalid_argument(fmt::format("start_basis: must be empty or have {} entries, got {}", problem.size(),
-                                            settings.start_basis.size()));
-  }
+  require_start_basis(settings.start_basis, problem.size());
   LcpWorkspace workspace;
-  prepare(problem, workspace);
-  run_lemke_lu(problem, settings, workspace);
+  solve_prepared(problem, settings, workspace, run_lemke_lu);
   return std::move(workspace.result);
 }
 

@@ -11,8 +11,8 @@ struct LcpProblem {
   std::vector<double> q;  // n
 
   // Typical size of each w_i, in its own unit (n values >= 0), or empty. It tells the residual what counts as round-off
-  // in a row whose terms all vanish: a contact model knows it (an approach speed, say). Left empty, `round_off_sizes`
-  // takes a small share of the largest entry of q.
+  // in a row whose terms all vanish: a contact model knows it (an approach speed, say). Left empty, `default_row_sizes`
+  // finds them.
   std::vector<double> row_sizes;
 
   std::size_t size() const { return q.size(); }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "tumble/lcp/contact_structure.hpp"
 #include "tumble/lcp/equilibrate.hpp"
 #include "tumble/lcp/judge.hpp"
 
@@ -95,6 +96,17 @@ LcpResidual judge(const LcpProblem& problem, std::span<const double> row_sizes, 
   return parts;
 }
 
+std::vector<double> default_row_sizes(const LcpProblem& problem) {
+  std::vector<double> sizes;
+  ContactStructure contacts;
+  if (find_contacts(problem, contacts)) {
+    contact_row_sizes(problem, contacts.places, sizes);
+  } else {
+    sizes = round_off_sizes(problem);
+  }
+  return sizes;
+}
+
 LcpResidual residual(const LcpProblem& problem, std::span<const double> z) {
   validate(problem);
   if (z.size() != problem.size()) {
@@ -102,7 +114,7 @@ LcpResidual residual(const LcpProblem& problem, std::span<const double> z) {
   }
   std::vector<double> w;
   JudgeBuffers buffers;
-  return judge(problem, problem.row_sizes.empty() ? round_off_sizes(problem) : problem.row_sizes, z, w, buffers);
+  return judge(problem, problem.row_sizes.empty() ? default_row_sizes(problem) : problem.row_sizes, z, w, buffers);
 }
 
 }  // namespace tumble

@@ -24,6 +24,11 @@ struct LcpResidual {
 // Throws std::invalid_argument where `validate` does or if z has another length than q.
 LcpResidual residual(const LcpProblem& problem, std::span<const double> z);
 
+// What `residual` takes where a problem has no row_sizes (n values >= 0). If the problem is made of frictional
+// contacts, the sizes that a contact model gives: the largest abs(q_k) for velocities, that over the contact's own
+// response for its friction cone. Else 1e-6 of the largest abs(q_k) that row i is coupled with, in the unit of w_i.
+std::vector<double> default_row_sizes(const LcpProblem& problem);
+
 // M z + q, each row summed from the first column to the last.
 std::vector<double> complement(const LcpProblem& problem, std::span<const double> z);
 

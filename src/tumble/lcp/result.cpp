@@ -20,6 +20,7 @@ std::string_view to_string(LcpRung rung) {
     case LcpRung::none: return "none";
     case LcpRung::warm_start: return "warm_start";
     case LcpRung::closed_form: return "closed_form";
+    case LcpRung::contact_modes: return "contact_modes";
     case LcpRung::lemke: return "lemke";
     case LcpRung::lemke_lu: return "lemke_lu";
     case LcpRung::lemke_quad: return "lemke_quad";

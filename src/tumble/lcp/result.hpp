@@ -33,20 +33,21 @@ std::string_view to_string(LcpStatus status);
 
 // What found the answer. The methods of `robust` are rungs of a ladder: each is tried where those before it failed.
 enum class LcpRung {
-  none,         // q >= 0: z = 0 needs no method
-  warm_start,   // the basis that the caller passed
-  closed_form,  // one contact
-  lemke,        // tableau
-  lemke_lu,     // fresh factors of the basis
-  lemke_quad,   // the same with 113 bits
-  ridge,        // the same for M + a tiny diagonal
-  exact,        // rational arithmetic
-  enumerate,    // all bases
-  nlgs,         // block Gauss-Seidel over contacts
-  murty,        // least index
-  dantzig,      // principal pivoting, one row after the other
-  newton,       // semismooth Newton on min(w, z)
-  pgs,          // projected Gauss-Seidel
+  none,           // q >= 0: z = 0 needs no method
+  warm_start,     // the basis that the caller passed
+  closed_form,    // one contact
+  contact_modes,  // Newton on the modes of contacts
+  lemke,          // tableau
+  lemke_lu,       // fresh factors of the basis
+  lemke_quad,     // the same with 113 bits
+  ridge,          // the same for M + a tiny diagonal
+  exact,          // rational arithmetic
+  enumerate,      // all bases
+  nlgs,           // block Gauss-Seidel over contacts
+  murty,          // least index
+  dantzig,        // principal pivoting, one row after the other
+  newton,         // semismooth Newton on min(w, z)
+  pgs,            // projected Gauss-Seidel
 };
 
 std::string_view to_string(LcpRung rung);

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
+#include <cmath>
+#include <span>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "tumble/lcp/enumerate.hpp"
+#include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
 
 namespace tumble {
@@ -19,6 +19,84 @@ constexpr std::size_t k_max_tableau_size = 1000;
 // One step of the ladder: improves workspace.result, or leaves it.
 using Rung = void (*)(const LcpProblem&, const RobustSettings&, LcpWorkspace&);
 
+// Judges buffers.z.
+void offer(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
+  judge_candidate(problem, workspace);
+  if (workspace.result.residual <= settings.accepted_residual) workspace.result.status = LcpStatus::solved;
+}
+
+// Rungs for contacts need no scaling: units of contacts cannot mislead them.
+
+void try_closed_form(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  const ContactPlace& place = buffers.contacts.places.front();
+  if (problem.size() != 4 || place.c < 0) return;
+  const auto c = static_cast<std::size_t>(place.c), plus = static_cast<std::size_t>(place.plus);
+  const OneContactSolution solution = solve_one_contact(
+      {problem(c, c), problem(c, plus), problem(plus, plus), problem.q[c], problem.q[plus], place.mu()});
+  LcpResult& result = workspace.result;
+  result.rung = LcpRung::closed_form;
+  buffers.z.assign(4, 0.0);
+  result.basis.assign(4, 0);
+  const auto set = [&](int j, double value) {
+    buffers.z[static_cast<std::size_t>(j)] = value;
+    result.basis[static_cast<std::size_t>(j)] = 1;
+  };
+  if (solution.mode != ContactMode::open) {
+    set(place.c, solution.f_n);
+    set(solution.f_t > 0.0 ? place.plus : place.minus, std::abs(solution.f_t));
+  }
+  if (solution.mode != ContactMode::stick) set(place.s, solution.slip_speed / place.slip);
+  offer(problem, settings, workspace);
+}
+
+enum class ModeSearch { newton, one_by_one, path };
+
+void run_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace, ModeSearch search) {
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  LcpResult& result = workspace.result;
+  const auto count = [&](bool is_done) {
+    result.pivots += buffers.modes.rounds() - 1;
+    result.refactorisations += buffers.modes.rounds();
+    return is_done;
+  };
+  const int m = static_cast<int>(buffers.modes.modes.size());
+  if (search == ModeSearch::path && !count(buffers.modes.follow(buffers.contacts, 20 + m))) return;
+  const auto change = search == ModeSearch::one_by_one ? ContactModes::Change::worst : ContactModes::Change::all;
+  if (!count(buffers.modes.run(buffers.contacts, change, 30))) return;
+  buffers.modes.write(buffers.contacts, buffers.z, result.basis);
+  offer(problem, settings, workspace);
+}
+
+void try_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  read_responses(problem, buffers.contacts);
+  if (!settings.start_basis.empty()) {
+    workspace.result.rung = LcpRung::warm_start;
+    buffers.modes.read_basis(buffers.contacts, settings.start_basis);
+    run_modes(problem, settings, workspace, ModeSearch::newton);
+    if (workspace.result.status == LcpStatus::solved) return;
+  }
+  workspace.result.rung = LcpRung::contact_modes;
+  buffers.modes.start(buffers.contacts);
+  struct Attempt {
+    int num_sweeps;
+    ModeSearch search;
+  };
+  for (const Attempt attempt : {Attempt{2, ModeSearch::newton},
+                                {10, ModeSearch::newton},
+                                {20, ModeSearch::path},
+                                {40, ModeSearch::path},
+                                {80, ModeSearch::path},
+                                {160, ModeSearch::path},
+                                {1, ModeSearch::one_by_one}}) {
+    buffers.modes.sweep(buffers.contacts, attempt.num_sweeps);
+    if (attempt.search == ModeSearch::newton) buffers.modes.hold(buffers.contacts);
+    run_modes(problem, settings, workspace, attempt.search);
+    if (workspace.result.status == LcpStatus::solved) return;
+  }
+}
+
 void try_warm_start(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   if (settings.start_basis.empty()) return;
   LcpResult& result = workspace.result;
@@ -27,8 +105,7 @@ void try_warm_start(const LcpProblem& problem, const RobustSettings& settings, L
   ++result.refactorisations;
   if (!solve_basis(result.basis, workspace.buffers())) return;
   unscale(workspace.buffers().scaled, workspace.buffers().z_scaled, workspace.buffers().z);
-  judge_candidate(problem, workspace);
-  if (result.residual <= settings.accepted_residual) result.status = LcpStatus::solved;
+  offer(problem, settings, workspace);
 }
 
 void try_lemke(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
@@ -71,43 +148,62 @@ void try_enumerate(const LcpProblem& problem, const RobustSettings& settings, Lc
   found.refactorisations += result.refactorisations;
   if (found.status == LcpStatus::solved) {
     workspace.buffers().z = found.z;
-    judge_candidate(problem, workspace);
     result.rung = LcpRung::enumerate;
     result.basis = found.basis;
-    if (result.residual <= settings.accepted_residual) result.status = LcpStatus::solved;
+    offer(problem, settings, workspace);
   } else if (found.status == LcpStatus::no_solution_proved) {
     result = std::move(found);
   }
 }
 
+constexpr std::array<Rung, 2> k_contact_ladder = {try_closed_form, try_modes};
 constexpr std::array<Rung, 6> k_ladder = {try_warm_start, try_lemke, try_lemke_lu,
                                           try_lemke_quad, try_ridge, try_enumerate};
 
-void climb(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
-  for (const Rung rung : k_ladder) {
+// True once a rung has solved the problem.
+bool climb(std::span<const Rung> ladder, const LcpProblem& problem, const RobustSettings& settings,
+           LcpWorkspace& workspace) {
+  for (const Rung rung : ladder) {
     rung(problem, settings, workspace);
-    if (workspace.result.status == LcpStatus::solved) return;
+    if (workspace.result.status == LcpStatus::solved) return true;
   }
+  return false;
+}
+
+// Rows of unknown sizes: each is judged by its own terms alone first. What satisfies that satisfies every size.
+bool climb_strictly(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  std::swap(buffers.row_sizes, buffers.other_row_sizes);
+  buffers.row_sizes.assign(problem.size(), 0.0);
+  const bool is_solved = climb(k_ladder, problem, settings, workspace);
+  std::swap(buffers.row_sizes, buffers.other_row_sizes);
+  if (workspace.result.z.empty()) return false;
+  // The residual reported is that of `residual`.
+  buffers.z = workspace.result.z;
+  workspace.result.z.clear();
+  offer(problem, settings, workspace);
+  return is_solved;
 }
 
 }  // namespace
 
-void validate(const RobustSettings& settings) {
-  if (!(settings.accepted_residual > 0.0 && settings.accepted_residual <= k_largest_accepted_residual)) {
-    throw std::invalid_argument(fmt::format("accepted_residual: must be in (0, {}], got {}",
-                                            k_largest_accepted_residual, settings.accepted_residual));
-  }
-}
+void validate(const RobustSettings& settings) { require_accepted_residual(settings.accepted_residual); }
 
 void run_robust(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
-  prepare(problem, workspace);
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  start(problem, workspace);
   if (solve_trivially(problem, workspace)) return;
-  climb(problem, settings, workspace);
+  if (buffers.has_contacts && climb(k_contact_ladder, problem, settings, workspace)) return;
+  scale(problem, buffers.scaled);
+  const bool has_sizes = buffers.has_contacts || !problem.row_sizes.empty();
+  if (!has_sizes && climb_strictly(problem, settings, workspace)) return;
+  if (climb(k_ladder, problem, settings, workspace)) return;
 }
 
 LcpResult robust(const LcpProblem& problem, const RobustSettings& settings) {
   validate(problem);
   validate(settings);
+  require_start_basis(settings.start_basis, problem.size());
   LcpWorkspace workspace;
   run_robust(problem, settings, workspace);
   return std::move(workspace.result);

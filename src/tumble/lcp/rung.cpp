@@ -11,11 +11,17 @@ LcpWorkspace::~LcpWorkspace() = default;
 LcpWorkspace::LcpWorkspace(LcpWorkspace&&) noexcept = default;
 LcpWorkspace& LcpWorkspace::operator=(LcpWorkspace&&) noexcept = default;
 
-void prepare(const LcpProblem& problem, LcpWorkspace& workspace) {
+void start(const LcpProblem& problem, LcpWorkspace& workspace) {
   LcpWorkspace::Buffers& buffers = workspace.buffers();
-  scale(problem, buffers.scaled);
-  buffers.row_sizes = problem.row_sizes;
-  if (problem.row_sizes.empty()) round_off_sizes(problem, buffers.scaled.scales, buffers.row_sizes);
+  buffers.has_contacts = find_contacts(problem, buffers.contacts);
+  if (!problem.row_sizes.empty()) {
+    buffers.row_sizes = problem.row_sizes;
+  } else if (buffers.has_contacts) {
+    contact_row_sizes(problem, buffers.contacts.places, buffers.row_sizes);
+  } else {
+    equilibrate(problem, buffers.scaled.scales);
+    round_off_sizes(problem, buffers.scaled.scales, buffers.row_sizes);
+  }
   LcpResult& result = workspace.result;
   result.status = LcpStatus::numerical;
   result.z.clear();
@@ -27,6 +33,11 @@ void prepare(const LcpProblem& problem, LcpWorkspace& workspace) {
   result.rung = LcpRung::none;
   result.basis.assign(problem.size(), 0);
   result.certificate.clear();
+}
+
+void prepare(const LcpProblem& problem, LcpWorkspace& workspace) {
+  start(problem, workspace);
+  scale(problem, workspace.buffers().scaled);
 }
 
 bool solve_trivially(const LcpProblem& problem, LcpWorkspace& workspace) {

@@ -10,7 +10,10 @@
 
 namespace tumble {
 
-// Scales the problem and finds its row sizes, into the buffers; clears `result`. The problem must be valid.
+// Looks for contacts and finds row sizes, into the buffers; clears `result`. The problem must be valid.
+void start(const LcpProblem& problem, LcpWorkspace& workspace);
+
+// The same, and scales the problem into the buffers.
 void prepare(const LcpProblem& problem, LcpWorkspace& workspace);
 
 // q >= 0 is solved by z = 0: true, and the result filled, if that is so.
@@ -27,6 +30,14 @@ void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWork
 
 // The same with fresh factors at every pivot.
 void run_lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspace& workspace);
+
+// A method as the only one: prepares, takes z = 0 if that is a solution, else runs it.
+template <class Settings>
+void solve_prepared(const LcpProblem& problem, const Settings& settings, LcpWorkspace& workspace,
+                    void (*run)(const LcpProblem&, const Settings&, LcpWorkspace&)) {
+  prepare(problem, workspace);
+  if (!solve_trivially(problem, workspace)) run(problem, settings, workspace);
+}
 
 // The whole ladder, on a valid problem.
 void run_robust(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace);

@@ -1,15 +1,58 @@
 #include "tumble/lcp/solve.hpp"
 
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "tumble/lcp/require.hpp"
+#include "tumble/lcp/rung.hpp"
+
 namespace tumble {
 namespace {
 
-LcpResult run(const LcpProblem& problem, const LemkeSettings& settings) { return lemke(problem, settings); }
-LcpResult run(const LcpProblem& problem, const EnumerateSettings& settings) { return enumerate(problem, settings); }
+void run(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
+  require_start_basis(settings.start_basis, problem.size());
+  run_robust(problem, settings, workspace);
+}
+
+void run(const LcpProblem& problem, const EnumerateSettings& settings, LcpWorkspace& workspace) {
+  workspace.result = enumerate(problem, settings);
+}
+
+void run(const LcpProblem& problem, const LemkeSettings& settings, LcpWorkspace& workspace) {
+  solve_prepared(problem, settings, workspace, run_lemke);
+}
+
+void run(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspace& workspace) {
+  require_start_basis(settings.start_basis, problem.size());
+  solve_prepared(problem, settings, workspace, run_lemke_lu);
+}
 
 }  // namespace
 
+void validate(const LcpSettings& settings) {
+  std::visit([](const auto& chosen) { validate(chosen); }, settings);
+}
+
 LcpResult solve_lcp(const LcpProblem& problem, const LcpSettings& settings) {
-  return std::visit([&](const auto& chosen) { return run(problem, chosen); }, settings);
+  validate(problem);
+  validate(settings);
+  LcpWorkspace workspace;
+  std::visit([&](const auto& chosen) { run(problem, chosen, workspace); }, settings);
+  return std::move(workspace.result);
+}
+
+const LcpResult& solve_lcp(const LcpProblem& problem, const LcpSettings& settings, LcpWorkspace& workspace) {
+  validate(settings);
+  try {
+    validate(problem);
+    std::visit([&](const auto& chosen) { run(problem, chosen, workspace); }, settings);
+  } catch (const std::invalid_argument&) {
+    workspace.result = LcpResult();
+    workspace.result.status = LcpStatus::bad_input;
+    workspace.result.residual = std::numeric_limits<double>::infinity();
+  }
+  return workspace.result;
 }
 
 }  // namespace tumble

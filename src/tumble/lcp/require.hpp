@@ -1,0 +1,29 @@
+// Checks of settings: one message for one mistake. Not a public header.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tumble/lcp/result.hpp"
+
+namespace tumble {
+
+// Throws std::invalid_argument "field: must be range, got value" unless `is_met`.
+inline void require(bool is_met, const char* field, const char* range, double value) {
+  if (!is_met) throw std::invalid_argument(fmt::format("{}: must be {}, got {}", field, range, value));
+}
+
+inline void require_accepted_residual(double value) {
+  require(value > 0.0 && value <= k_largest_accepted_residual, "accepted_residual", "in (0, 0.01]", value);
+}
+
+inline void require_start_basis(const std::vector<std::uint8_t>& basis, std::size_t n) {
+  if (basis.empty() || basis.size() == n) return;
+  throw std::invalid_argument(fmt::format("start_basis: must be empty or have {} entries, got {}", n, basis.size()));
+}
+
+}  // namespace tumble
