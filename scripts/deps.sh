@@ -12,8 +12,9 @@ packages_of() {
     test) echo "libgtest-dev python3-pytest python3-hypothesis python3-h5py mypy ffmpeg
                 clang-14 libclang-rt-14-dev clang-format-14 git" ;;
     bench) echo "libbenchmark-dev" ;;
+    bench-lcp) echo "libsiconos-numerics-dev libbullet-dev libdart-dev libfclib-dev" ;;
     fuzz) echo "clang-14 libclang-rt-14-dev" ;;
-    *) echo "deps.sh: unknown set '$1'; sets: build python test bench fuzz" >&2; exit 2 ;;
+    *) echo "deps.sh: unknown set '$1'; sets: build python test bench bench-lcp fuzz" >&2; exit 2 ;;
   esac
 }
 
