@@ -102,7 +102,11 @@ int main(int argc, char** argv) {
   app.add_option("--medium", settings.long_run.num_medium, "with n = 4 .. 48")->capture_default_str();
   app.add_option("--stacks", settings.long_run.num_stacks, "of each kind and size")->capture_default_str();
   app.add_option("--threads", settings.long_run.num_threads)->check(CLI::Range(1, 256))->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     run(settings);
   } catch (const std::exception& error) {
