@@ -26,6 +26,8 @@ void start(const LcpProblem& problem, LcpWorkspace& workspace) {
   result.status = LcpStatus::numerical;
   result.z.clear();
   result.w.clear();
+  result.z.reserve(problem.size());  // they change places with those of candidates
+  result.w.reserve(problem.size());
   result.residual = std::numeric_limits<double>::infinity();
   result.parts = {result.residual, result.residual, result.residual};
   result.pivots = 0;
