@@ -41,6 +41,15 @@ class LuBasis {
     }
   }
 
+  // Another constant than the problem's in row i.
+  void set_constant(int i, const Real& q_i) { q_[i] = q_i; }
+
+  // Another cover: z0 adds to w_i alone.
+  void set_cover_to_row(int i) {
+    cover_.assign(cover_.size(), Real(0));
+    cover_[i] = Real(1);
+  }
+
   int z0() const { return 2 * n_; }
   int complement_of(int variable) const { return variable < n_ ? variable + n_ : variable - n_; }
   int size() const { return n_; }
