@@ -190,7 +190,7 @@ LcpResult nlgs(const LcpProblem& problem, const NlgsSettings& settings) {
   validate(settings);
   require_start_z(settings.start_z, problem.size());
   LcpWorkspace workspace;
-  solve_prepared(problem, settings, workspace, run_nlgs);
+  solve_unscaled(problem, settings, workspace, run_nlgs);
   return std::move(workspace.result);
 }
 

@@ -58,7 +58,7 @@ LcpResult pgs(const LcpProblem& problem, const PgsSettings& settings) {
   validate(settings);
   require_start_z(settings.start_z, problem.size());
   LcpWorkspace workspace;
-  solve_prepared(problem, settings, workspace, run_pgs);
+  solve_unscaled(problem, settings, workspace, run_pgs);
   return std::move(workspace.result);
 }
 

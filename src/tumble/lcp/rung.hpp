@@ -27,8 +27,8 @@ bool solve_trivially(const LcpProblem& problem, LcpWorkspace& workspace);
 // Judges buffers.z, and takes it, with its w, as the result if it is better than what the result holds.
 void judge_candidate(const LcpProblem& problem, LcpWorkspace& workspace);
 
-// Solves M_BB z_B = -q_B for the basis given, in scaled numbers, into buffers.z_scaled. False if M_BB is singular, up to
-// `tolerance` as in `DenseLu::factor`.
+// Solves M_BB z_B = -q_B for the basis given, in scaled numbers, into buffers.z_scaled. False if M_BB is singular, up
+// to `tolerance` as in `DenseLu::factor`.
 bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& buffers, double tolerance = 0.0);
 
 // The tolerance for methods that go on from z: a pivot below is round-off, and z of any size would pass for a solution.
@@ -40,10 +40,12 @@ void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWork
 // The same with fresh factors at every pivot.
 void run_lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspace& workspace);
 
-// The methods for comparison and for large problems, on a prepared problem as well.
+// The methods for comparison, on a prepared problem as well.
 void run_murty(const LcpProblem& problem, const MurtySettings& settings, LcpWorkspace& workspace);
 void run_dantzig(const LcpProblem& problem, const DantzigSettings& settings, LcpWorkspace& workspace);
 void run_newton(const LcpProblem& problem, const NewtonSettings& settings, LcpWorkspace& workspace);
+
+// Sweeps, for which `start` is enough.
 void run_pgs(const LcpProblem& problem, const PgsSettings& settings, LcpWorkspace& workspace);
 void run_nlgs(const LcpProblem& problem, const NlgsSettings& settings, LcpWorkspace& workspace);
 
@@ -52,6 +54,14 @@ template <class Settings>
 void solve_prepared(const LcpProblem& problem, const Settings& settings, LcpWorkspace& workspace,
                     void (*run)(const LcpProblem&, const Settings&, LcpWorkspace&)) {
   prepare(problem, workspace);
+  if (!solve_trivially(problem, workspace)) run(problem, settings, workspace);
+}
+
+// The same for a method that needs no scaled problem: scaling takes longer than many sweeps.
+template <class Settings>
+void solve_unscaled(const LcpProblem& problem, const Settings& settings, LcpWorkspace& workspace,
+                    void (*run)(const LcpProblem&, const Settings&, LcpWorkspace&)) {
+  start(problem, workspace);
   if (!solve_trivially(problem, workspace)) run(problem, settings, workspace);
 }
 

@@ -42,12 +42,12 @@ void run(const LcpProblem& problem, const NewtonSettings& settings, LcpWorkspace
 
 void run(const LcpProblem& problem, const PgsSettings& settings, LcpWorkspace& workspace) {
   require_start_z(settings.start_z, problem.size());
-  solve_prepared(problem, settings, workspace, run_pgs);
+  solve_unscaled(problem, settings, workspace, run_pgs);
 }
 
 void run(const LcpProblem& problem, const NlgsSettings& settings, LcpWorkspace& workspace) {
   require_start_z(settings.start_z, problem.size());
-  solve_prepared(problem, settings, workspace, run_nlgs);
+  solve_unscaled(problem, settings, workspace, run_nlgs);
 }
 
 }  // namespace
