@@ -5,13 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "tumble/lcp/infeasibility.hpp"
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
 
 namespace tumble {
 namespace {
-
-constexpr double k_round_off = 1e-13;
 
 // The way of row r is that of Lemke's method with the cover e_r: z0 is what the constant of the row still has to lose,
 // so w_r + z0 is the w_r of the lowered constant. One basis serves all rows.
@@ -106,42 +105,21 @@ struct Drive {
   }
 };
 
-// True if y = z_scaled, the direction of a ray, proves that no z >= 0 has M z + q >= 0: M'y <= 0, y >= 0, q'y < 0.
-bool is_infeasible(const LcpWorkspace::Buffers& buffers) {
-  const ScaledProblem& problem = buffers.scaled;
-  const std::vector<double>& y = buffers.z_scaled;
-  const std::size_t n = problem.size();
-  double product = 0.0, terms = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    product += problem.q[i] * y[i];
-    terms += std::abs(problem.q[i] * y[i]);
-  }
-  if (!(product < -k_round_off * terms)) return false;
-  for (std::size_t j = 0; j < n; ++j) {
-    product = terms = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      product += problem(i, j) * y[i];
-      terms += std::abs(problem(i, j) * y[i]);
-    }
-    if (product > k_round_off * terms) return false;
-  }
-  return true;
-}
-
-// The result's certificate, from the direction d of a ray.
-void certify(const std::vector<double>& d, LcpWorkspace& workspace) {
+// The result's certificate, from the direction d of a ray: in units of the rows of M a proof, if it holds, that there
+// is no solution; else in units of z the ray.
+void certify(const LcpProblem& problem, const std::vector<double>& d, LcpWorkspace& workspace) {
   LcpWorkspace::Buffers& buffers = workspace.buffers();
   LcpResult& result = workspace.result;
-  const std::size_t n = buffers.scaled.size();
+  const std::size_t n = problem.size();
   for (std::size_t i = 0; i < n; ++i) buffers.z_scaled[i] = std::max(d[n + i], 0.0);
-  if (!is_infeasible(buffers)) {
-    unscale(buffers.scaled, buffers.z_scaled, result.certificate);
-    return;
-  }
-  result.status = LcpStatus::infeasible;
   result.certificate.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {  // y multiplies rows of M
+  for (std::size_t i = 0; i < n; ++i) {
     result.certificate[i] = scaled_by(buffers.z_scaled[i], buffers.scaled.w_exponent[i]);
+  }
+  if (is_infeasibility_certificate(problem, result.certificate)) {
+    result.status = LcpStatus::infeasible;
+  } else {
+    unscale(buffers.scaled, buffers.z_scaled, result.certificate);
   }
 }
 
@@ -175,7 +153,7 @@ void run_dantzig(const LcpProblem& problem, const DantzigSettings& settings, Lcp
   if (result.residual <= settings.accepted_residual) {
     result.status = LcpStatus::solved;
   } else if (status == LcpStatus::ray_unproven) {
-    certify(drive.d, workspace);
+    certify(problem, drive.d, workspace);
   }
 }
 
