@@ -282,6 +282,16 @@ TEST(Exact, LemkeAnswersInDoublesWithRoundOffOnly) {
   EXPECT_EQ(exact_lemke(LcpProblem{{1e-300}, {-1e300}, {}}).status, LcpStatus::numerical);
 }
 
+TEST(Exact, ResultsMayBeLongerThanTheirProblem) {
+  const std::string sevens(900, '7'), threes(901, '3');
+  const ExactLcp problem = parse_exact_lcp("M\n" + sevens + " 1\n-1 " + threes + "\nq\n-1/" + threes + " -1e-900");
+  const ExactResult result = exact_lemke(problem);
+  ASSERT_EQ(result.status, LcpStatus::solved);
+  EXPECT_GT(result.z[0].size(), 2000u);
+  EXPECT_EQ(exact_solution(problem, result.basis).z, result.z);
+  EXPECT_EQ(as_doubles(result.z), (std::vector<double>{0.0, 0.0}));  // 1e-1800
+}
+
 TEST(Exact, CertificatesAreCheckedToTheLastDigit) {
   const ExactLcp problem = parse_exact_lcp("M\n1 -1\n-1 1\nq\n-1 -1");
   EXPECT_TRUE(proves_infeasible(problem, {"1", "1"}));
@@ -291,6 +301,7 @@ TEST(Exact, CertificatesAreCheckedToTheLastDigit) {
   EXPECT_FALSE(proves_infeasible(LcpProblem{{0.1}, {-1}, {}}, std::vector<double>{1.0}));
   EXPECT_FALSE(proves_infeasible(LcpProblem{{-1}, {-1}, {}}, std::vector<double>{std::nan("")}));
   EXPECT_THROW(proves_infeasible(problem, {"1"}), std::invalid_argument);
+  EXPECT_THROW(proves_infeasible(problem, {"1", "one"}), std::invalid_argument);
 }
 
 std::string error_of(const ExactLcp& problem) {
@@ -308,7 +319,7 @@ TEST(Exact, NamesWhatIsOutOfItsLimits) {
   EXPECT_EQ(error_of({{"x"}, {"1"}}), "M[0][0]: expected a number like 1e-3 or 1/3, got 'x'");
   EXPECT_EQ(error_of({{"1"}, {"1/0"}}), "q[0]: must be finite, got '1/0'");
   EXPECT_EQ(error_of({{"1"}, {"1e1001"}}),
-            "q[0]: must have at most 1000 digits and an exponent within +-1000, got '1e1001'");
+            "q[0]: must have at most 100000 digits and an exponent within +-1000, got '1e1001'");
   EXPECT_EQ(error_of({{"1e1000", "1", "1", "1e1000"}, {"1e-1000", "1e999"}}).substr(0, 40),
             "M, q: brought to whole numbers, n times ");
   EXPECT_TRUE(is_within_exact_limits({{1e300, 1e-300, 1e-300, 1e300}, {1, 1}, {}}));

@@ -18,6 +18,14 @@ IntegerLcp prepare(const RationalLcp& problem, std::size_t max_size) {
   return integers;
 }
 
+std::vector<Rational> rationals_of(const std::vector<std::string>& numbers, const char* name) {
+  std::vector<Rational> rationals;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    rationals.push_back(parse_entry(numbers[i], fmt::format("{}[{}]", name, i)));
+  }
+  return rationals;
+}
+
 void require_length(const char* name, std::size_t length, std::size_t n) {
   if (length != n) throw std::invalid_argument(fmt::format("{}: must have {} entries like q, got {}", name, n, length));
 }
@@ -77,9 +85,7 @@ LcpProblem as_doubles(const ExactLcp& problem) {
 }
 
 std::vector<double> as_doubles(const std::vector<std::string>& numbers) {
-  std::vector<double> doubles;
-  for (const std::string& number : numbers) doubles.push_back(nearest_double(parse_rational(number)));
-  return doubles;
+  return nearest_doubles(rationals_of(numbers, "numbers"));
 }
 
 bool is_within_exact_limits(const LcpProblem& problem) {
@@ -148,9 +154,7 @@ ExactSolutionSet exact_solution_set(const ExactLcp& problem) {
 bool proves_infeasible(const ExactLcp& problem, const std::vector<std::string>& y) {
   const RationalLcp rationals = rationals_of(problem);
   require_length("y", y.size(), problem.size());
-  std::vector<Rational> y_rational;
-  for (const std::string& text : y) y_rational.push_back(parse_rational(text));
-  return proves_infeasible(rationals, y_rational);
+  return proves_infeasible(rationals, rationals_of(y, "y"));
 }
 
 bool proves_infeasible(const LcpProblem& problem, std::span<const double> y) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -14,15 +13,15 @@ using boost::multiprecision::gcd;
 using boost::multiprecision::lcm;
 using boost::multiprecision::numerator;
 
-Rational parse_entry(const std::string& text, std::string_view name) {
+}  // namespace
+
+Rational parse_entry(const std::string& text, const std::string& name) {
   try {
-    return parse_rational(text);
+    return parse_rational(text, k_max_result_digits);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}, got '{}'", name, error.what(), text.substr(0, 30)));
   }
 }
-
-}  // namespace
 
 RationalLcp rationals_of(const ExactLcp& problem) {
   const std::size_t n = problem.size();

@@ -1,6 +1,7 @@
 // An LCP brought to whole numbers. Not a public header.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tumble/lcp/exact.hpp"
@@ -14,6 +15,9 @@ struct RationalLcp {
 
   std::size_t size() const { return q.size(); }
 };
+
+// A number passed as text. Throws std::invalid_argument "<name>: <what is expected>, got <text>".
+Rational parse_entry(const std::string& text, const std::string& name);
 
 // Throws std::invalid_argument naming the entry for a text that is no number, wrong lengths, or n = 0.
 RationalLcp rationals_of(const ExactLcp& problem);

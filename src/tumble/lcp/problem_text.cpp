@@ -65,7 +65,7 @@ double number(const std::string& name, const Token& token) {
 
 std::string fraction(const std::string& name, const Token& token) {
   try {
-    return to_text(parse_rational(token.text));
+    return to_text(parse_rational(token.text, k_max_file_digits));
   } catch (const std::invalid_argument& error) {
     refuse(name, token, fmt::format("{}, got {}", error.what(), quoted(token.text)));
   }

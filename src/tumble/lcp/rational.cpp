@@ -20,9 +20,9 @@ using boost::multiprecision::pow;
 
 [[noreturn]] void refuse_word() { throw std::invalid_argument("expected a number like 1e-3 or 1/3"); }
 
-[[noreturn]] void refuse_length() {
-  throw std::invalid_argument(fmt::format("must have at most {} digits and an exponent within +-{}",
-                                          k_max_number_digits, k_max_number_exponent));
+[[noreturn]] void refuse_length(std::size_t max_digits) {
+  throw std::invalid_argument(
+      fmt::format("must have at most {} digits and an exponent within +-{}", max_digits, k_max_number_exponent));
 }
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
@@ -42,19 +42,19 @@ std::string_view take_digits(std::string_view& text) {
 }
 
 // The power of ten behind an 'e', all of `text`.
-int parse_exponent(std::string_view text) {
+int parse_exponent(std::string_view text, std::size_t max_digits) {
   const bool is_minus = take_sign(text);
   const std::string_view digits = take_digits(text);
   if (digits.empty() || !text.empty()) refuse_word();
   int exponent = 0;
   for (const char c : digits) {
     exponent = 10 * exponent + (c - '0');
-    if (exponent > k_max_number_exponent) refuse_length();
+    if (exponent > k_max_number_exponent) refuse_length(max_digits);
   }
   return is_minus ? -exponent : exponent;
 }
 
-Rational parse_decimal(std::string_view text) {
+Rational parse_decimal(std::string_view text, std::size_t max_digits) {
   const bool is_minus = take_sign(text);
   std::string digits(take_digits(text));
   int exponent = 0;
@@ -62,12 +62,12 @@ Rational parse_decimal(std::string_view text) {
     text.remove_prefix(1);
     const std::string_view decimals = take_digits(text);
     digits += decimals;
-    exponent = -static_cast<int>(std::min(decimals.size(), std::size_t{k_max_number_digits} + 1));
+    exponent = -static_cast<int>(std::min(decimals.size(), max_digits));
   }
   if (digits.empty()) refuse_word();
-  if (digits.size() > k_max_number_digits) refuse_length();
+  if (digits.size() > max_digits) refuse_length(max_digits);
   if (text.starts_with('e') || text.starts_with('E')) {
-    exponent += parse_exponent(text.substr(1));
+    exponent += parse_exponent(text.substr(1), max_digits);
   } else if (!text.empty()) {
     refuse_word();
   }
@@ -80,11 +80,11 @@ Rational parse_decimal(std::string_view text) {
 
 }  // namespace
 
-Rational parse_rational(std::string_view text) {
+Rational parse_rational(std::string_view text, std::size_t max_digits) {
   const std::size_t slash = text.find('/');
-  const Rational value = parse_decimal(text.substr(0, slash));
+  const Rational value = parse_decimal(text.substr(0, slash), max_digits);
   if (slash == std::string_view::npos) return value;
-  const Rational divisor = parse_decimal(text.substr(slash + 1));
+  const Rational divisor = parse_decimal(text.substr(slash + 1), max_digits);
   if (divisor == 0) throw std::invalid_argument("must be finite");
   return value / divisor;
 }

@@ -15,12 +15,14 @@ using Rational =
     boost::multiprecision::number<boost::multiprecision::rational_adaptor<boost::multiprecision::cpp_int_backend<>>,
                                   boost::multiprecision::et_off>;
 
-inline constexpr int k_max_number_digits = 1000;    // of each decimal in a text
-inline constexpr int k_max_number_exponent = 1000;  // its power of ten, either sign: 1e999999 would fill the memory
+// Limits of a decimal in text: 1e999999 would fill the memory.
+inline constexpr std::size_t k_max_file_digits = 1000;       // of problems in files
+inline constexpr std::size_t k_max_result_digits = 100'000;  // of numbers passed as text, longer than any result
+inline constexpr int k_max_number_exponent = 1000;           // power of ten, either sign
 
 // A decimal ("-0.1", "1e-3") or a fraction of two ("1/3"), meaning exactly that. Throws std::invalid_argument with what
 // is expected instead, without the text itself.
-Rational parse_rational(std::string_view text);
+Rational parse_rational(std::string_view text, std::size_t max_digits);
 
 // x must be finite. Exact: every double is a fraction.
 Rational rational_of(double x);
