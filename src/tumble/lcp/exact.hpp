@@ -52,8 +52,9 @@ struct ExactResult {
 // is singular, some solution if there is one with this basis, else empty. iteration_limit: see `find_infeasibility`.
 ExactResult exact_solution(const ExactLcp& problem, std::span<const std::uint8_t> basis);
 
-// Lemke's method with cover e and a lexicographic rule, which excludes cycles [Cottle 1992, algorithms 4.4.1, 4.9.2].
-// Status: solved; infeasible, with y; ray_unproven, with a ray that is one; iteration_limit after 100 n + 1000 pivots.
+// Lemke's method with cover e and a lexicographic rule, which excludes cycles [Cottle 1992, algorithm 4.4.1,
+// section 4.9]. Status: solved; infeasible, with y; ray_unproven, with a ray that is one; iteration_limit after 100 n +
+// 1000 pivots.
 ExactResult exact_lemke(const ExactLcp& problem);
 
 // The same for the doubles of a problem, each answer rounded to the nearest double at the end. w and the residual are
