@@ -51,8 +51,12 @@ struct LcpOptions {
   std::string input;  // "-" is standard input
   std::string method = "lemke";
   bool all = false;
+  bool exact = false;
   ReportOptions report;
 };
 int run_lcp(const LcpOptions& options);
+
+// The same for options.exact; `text` has been read from `name`.
+int run_lcp_exact(const std::string& text, const std::string& name, const LcpOptions& options);
 
 }  // namespace tumble::cli

@@ -12,7 +12,9 @@ int run_lcp(const LcpOptions& options) {
   const bool is_stdin = options.input == "-";
   constexpr std::size_t max_bytes = 200'000'000;  // the largest problem that is read, at 50 bytes a number
   const std::string text = output::read_file(is_stdin ? "/dev/stdin" : options.input, max_bytes);
-  const LcpProblem problem = parse_lcp(text, is_stdin ? "standard input" : options.input);
+  const std::string name = is_stdin ? "standard input" : options.input;
+  if (options.exact) return run_lcp_exact(text, name, options);
+  const LcpProblem problem = parse_lcp(text, name);
   std::vector<LcpResult> results;
   if (options.all) {
     results = enumerate_solutions(problem);

@@ -134,6 +134,11 @@ void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& comma
       ->type_name("NAME")
       ->capture_default_str();
   app.add_flag("--all", options.all, "Every vertex solution, n <= 12");
+  app.add_flag(
+         "--exact", options.exact,
+         "Exact arithmetic, where 0.1 and 1/3 mean just that: fractions and proofs, n <= 40; with --all also rays "
+         "and faces, n <= 12")
+      ->excludes("--method");
   add_report_options(app, options.report);
   app.callback([&] { command = [&] { return run_lcp(options); }; });
 }
