@@ -6,6 +6,8 @@
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/lcp/enumerate.hpp"
 #include "tumble/lcp/lemke.hpp"
+#include "tumble/lcp/lemke_lu.hpp"
+#include "tumble/lcp/methods.hpp"
 #include "tumble/lcp/one_contact.hpp"
 #include "tumble/lcp/problem.hpp"
 #include "tumble/lcp/problem_text.hpp"

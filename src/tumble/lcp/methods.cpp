@@ -1,0 +1,134 @@
+#include "tumble/lcp/methods.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tumble/math/numeric.hpp"
+
+namespace tumble {
+namespace {
+
+using Basis = std::vector<std::uint8_t>;
+
+// A new method is one row here. A setting of a new name is one line in `visit_settings`.
+const std::array k_methods = {
+    LcpMethod{"robust", "a ladder of methods, each checked against M and q; the one to use", RobustSettings{}},
+    LcpMethod{"lemke", "Lemke's pivots on a tableau; finds a solution if M is copositive-plus and w >= 0 is possible",
+              LemkeSettings{}},
+    LcpMethod{"lemke_lu", "Lemke's pivots on fresh LU factors; slower, for nearly singular problems; can start warm",
+              LemkeLuSettings{}},
+    LcpMethod{"enumerate", "all 2^n bases, n <= 12; the first solution, or proof that there is none",
+              EnumerateSettings{}},
+};
+
+// Calls visit(name, field) for every field that these settings have.
+template <class Settings, class Visit>
+void visit_settings(Settings& settings, const Visit& visit) {
+  if constexpr (requires { settings.max_pivots; }) visit("max_pivots", settings.max_pivots);
+  if constexpr (requires { settings.pivot_tolerance; }) visit("pivot_tolerance", settings.pivot_tolerance);
+  if constexpr (requires { settings.accepted_residual; }) visit("accepted_residual", settings.accepted_residual);
+  if constexpr (requires { settings.precision; }) visit("precision", settings.precision);
+  if constexpr (requires { settings.ridge; }) visit("ridge", settings.ridge);
+  if constexpr (requires { settings.start_basis; }) visit("start_basis", settings.start_basis);
+}
+
+constexpr std::array<std::pair<std::string_view, Precision>, 2> k_precisions = {
+    {{"double", Precision::double_precision}, {"quad", Precision::quad_precision}}};
+
+SettingValue as_value(int field) { return field; }
+SettingValue as_value(double field) { return field; }
+SettingValue as_value(const Basis& field) { return field; }
+SettingValue as_value(Precision field) {
+  const auto has_value = [&](const auto& choice) { return choice.second == field; };
+  return std::string(std::find_if(k_precisions.begin(), k_precisions.end(), has_value)->first);
+}
+
+[[noreturn]] void refuse(std::string_view name, std::string_view expected, const SettingValue& value) {
+  struct Shown {
+    std::string operator()(int x) const { return to_text(x); }
+    std::string operator()(double x) const { return to_text(x); }
+    std::string operator()(const std::string& word) const { return fmt::format("'{}'", word); }
+    std::string operator()(const Basis&) const { return "a basis"; }
+  };
+  throw std::invalid_argument(fmt::format("{}: must be {}, got {}", name, expected, std::visit(Shown(), value)));
+}
+
+void assign(std::string_view name, double& field, const SettingValue& value) {
+  std::optional<double> number;
+  if (const auto* count = std::get_if<int>(&value)) number = *count;
+  if (const auto* x = std::get_if<double>(&value)) number = *x;
+  if (const auto* word = std::get_if<std::string>(&value)) number = parse_number(*word);
+  if (!number) refuse(name, "a number", value);
+  field = *number;
+}
+
+void assign(std::string_view name, int& field, const SettingValue& value) {
+  double number = 0.0;
+  assign(name, number, value);
+  if (!(std::abs(number) <= std::numeric_limits<int>::max()) || number != std::trunc(number)) {
+    refuse(name, "a whole number", value);
+  }
+  field = static_cast<int>(number);
+}
+
+void assign(std::string_view name, Precision& field, const SettingValue& value) {
+  const auto* word = std::get_if<std::string>(&value);
+  const auto has_name = [&](const auto& choice) { return word != nullptr && choice.first == *word; };
+  const auto found = std::find_if(k_precisions.begin(), k_precisions.end(), has_name);
+  if (found == k_precisions.end()) refuse(name, "double or quad", value);
+  field = found->second;
+}
+
+void assign(std::string_view name, Basis& field, const SettingValue& value) {
+  if (const auto* basis = std::get_if<Basis>(&value)) {
+    field = *basis;
+    return;
+  }
+  const auto* word = std::get_if<std::string>(&value);
+  if (word == nullptr || word->find_first_not_of("01") != std::string::npos) refuse(name, "zeros and ones", value);
+  field.clear();
+  for (const char digit : *word) field.push_back(digit == '1');
+}
+
+}  // namespace
+
+std::span<const LcpMethod> lcp_methods() { return k_methods; }
+
+const LcpMethod& lcp_method(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const LcpMethod& method : k_methods) {
+    if (method.name == name) return method;
+    names.push_back(method.name);
+  }
+  throw std::invalid_argument(fmt::format("method: must be one of {}, got '{}'", fmt::join(names, ", "), name));
+}
+
+std::vector<NamedSetting> named_settings(const LcpSettings& settings) {
+  std::vector<NamedSetting> named;
+  const auto add = [&](std::string_view name, const auto& field) { named.push_back({name, as_value(field)}); };
+  std::visit([&](const auto& chosen) { visit_settings(chosen, add); }, settings);
+  return named;
+}
+
+void set_by_name(LcpSettings& settings, std::string_view name, const SettingValue& value) {
+  std::vector<std::string_view> names;
+  bool is_found = false;
+  const auto set = [&](std::string_view field_name, auto& field) {
+    names.push_back(field_name);
+    if (field_name != name) return;
+    assign(name, field, value);
+    is_found = true;
+  };
+  std::visit([&](auto& chosen) { visit_settings(chosen, set); }, settings);
+  if (is_found) return;
+  throw UnknownSetting(fmt::format("{}: is not a setting of this method, which has {}", name, fmt::join(names, ", ")));
+}
+
+}  // namespace tumble
