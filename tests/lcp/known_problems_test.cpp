@@ -1,6 +1,8 @@
 // Problems with exact solutions, solved by every method for LCPs of any origin.
+#include "known_problems.hpp"
+
+#include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,21 +13,7 @@
 namespace tumble {
 namespace {
 
-struct KnownProblem {
-  std::string name;
-  LcpProblem problem;
-  std::vector<std::vector<double>> vertices;  // all vertex solutions
-  bool lemke_finds_one = true;
-};
-
-LcpProblem lower_triangular(std::size_t n) {  // [Murty 1988]: exponential for least-index pivoting
-  LcpProblem problem;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) problem.M.push_back(i == j ? 1.0 : (j < i ? 2.0 : 0.0));
-    problem.q.push_back(-1.0);
-  }
-  return problem;
-}
+using problems::KnownProblem;
 
 LcpProblem growing(std::size_t n) {  // z_i = 2^(i - 1)
   LcpProblem problem;
@@ -36,33 +24,10 @@ LcpProblem growing(std::size_t n) {  // z_i = 2^(i - 1)
   return problem;
 }
 
+// The files of data/lcp. Each says how many vertex solutions there are, and lists all; found in rational arithmetic.
 const std::vector<KnownProblem>& known_problems() {
-  static const std::vector<KnownProblem> problems = {
-      {"murty 8", lower_triangular(8), {{1, 0, 0, 0, 0, 0, 0, 0}}},
-      {"growing 6", growing(6), {{1, 2, 4, 8, 16, 32}}},
-      {"circulant P", {{1, 2, 0, 0, 1, 2, 2, 0, 1}, {-1, -1, -1}, {}}, {{1 / 3., 1 / 3., 1 / 3.}}},
-      {"circulant P, uneven", {{1, 0, 2, 2, 1, 0, 0, 2, 1}, {-2, -1, -1}, {}}, {{4 / 9., 1 / 9., 7 / 9.}}},
-      {"all ones", {{1, 1, 1, 1}, {-1, -1}, {}}, {{1, 0}, {0, 1}}},
-      {"P0", {{0, 2, -1, -1, 0, 1, 2, -2, 0}, {-3, 6, -1}, {}}, {{6, 1.5, 0}}},
-      {"bimatrix game",
-       {{0, 0, 10, 30, 0, 0, 20, 15, 10, 30, 0, 0, 20, 15, 0, 0}, {-1, -1, -1, -1}, {}},
-       {{.1, 0, .1, 0}, {1 / 30., 1 / 45., 1 / 30., 1 / 45.}, {0, 1 / 15., 0, 1 / 15.}},
-       false},
-      {"vertex and ray", {{1, -1, -1, 1}, {1, -1}, {}}, {{0, 1}}},
-      {"q = 0", {{1, 1, 1, 1}, {0, 0}, {}}, {{0, 0}}},
-      {"every ratio ties", {{1, 0, 0, 1}, {-1, -1}, {}}, {{1, 1}}},
-      {"infeasible row", {{11, 0, 10, 1, 0, 11, 10, 1, 10, 10, 21, 1, -1, -1, -1, 0}, {50, 50, 10, -6}, {}}, {}},
-      {"minus one", {{-1}, {-1}, {}}, {}},
-      {"infeasible pair", {{1, -1, -1, 1}, {-1, -1}, {}}, {}},
-      {"feasible without solution", {{0, 1, 0, 0}, {-1, 1}, {}}, {}},
-      {"two solutions", {{-1}, {1}, {}}, {{0}, {1}}},
-      {"four solutions", {{-2, -1, -1, -2}, {1, 1}, {}}, {{0, 0}, {.5, 0}, {0, .5}, {1 / 3., 1 / 3.}}},
-      {"stick",
-       {{1, 0, 0, 0, 0, 4, -4, 1, 0, -4, 4, 1, .5, -1, -1, 0}, {-1, -.1, .1, 0}, {}},
-       {{1, .025, 0, 0}, {1, .2625, .2375, 0}}},
-      {"slide", {{1, 0, 0, 0, 0, 4, -4, 1, 0, -4, 4, 1, .5, -1, -1, 0}, {-1, -4, 4, 0}, {}}, {{1, .5, 0, 2}}},
-  };
-  return problems;
+  static const std::vector<KnownProblem> known = problems::read_known_problems(TUMBLE_LCP_DATA);
+  return known;
 }
 
 bool is_near(const std::vector<double>& a, const std::vector<double>& b) {
@@ -75,31 +40,92 @@ bool contains(const std::vector<std::vector<double>>& vertices, const std::vecto
   return std::any_of(vertices.begin(), vertices.end(), [&](const auto& vertex) { return is_near(vertex, z); });
 }
 
+TEST(KnownProblems, AreAllThereAndSayWhatIsKnown) {
+  EXPECT_EQ(known_problems().size(), 39u);
+  for (const KnownProblem& known : known_problems()) {
+    ASSERT_TRUE(known.num_solutions.has_value()) << known.name;
+    EXPECT_EQ(known.solutions.size(), *known.num_solutions) << known.name;
+    for (const std::vector<double>& z : known.solutions) {
+      EXPECT_LT(residual(known.problem, z).largest(), 1e-15) << known.name;  // fractions are rounded once
+    }
+  }
+}
+
 TEST(KnownProblems, EnumerationFindsEveryVertexAndNothingElse) {
   for (const KnownProblem& known : known_problems()) {
     const std::vector<LcpResult> solutions = enumerate_solutions(known.problem);
-    EXPECT_EQ(solutions.size(), known.vertices.size()) << known.name;
-    for (const LcpResult& solution : solutions) EXPECT_TRUE(contains(known.vertices, solution.z)) << known.name;
+    EXPECT_EQ(solutions.size(), known.solutions.size()) << known.name;
+    for (const LcpResult& solution : solutions) EXPECT_TRUE(contains(known.solutions, solution.z)) << known.name;
   }
 }
 
 TEST(KnownProblems, EnumerationProvesThatThereIsNoSolution) {
   for (const KnownProblem& known : known_problems()) {
-    const LcpStatus expected = known.vertices.empty() ? LcpStatus::no_solution_proved : LcpStatus::solved;
+    const LcpStatus expected = known.solutions.empty() ? LcpStatus::no_solution_proved : LcpStatus::solved;
     EXPECT_EQ(solve_lcp(known.problem, EnumerateSettings{}).status, expected) << known.name;
   }
+}
+
+// y >= 0, M^T y <= 0 and q^T y < 0: then y^T w < 0 for every z >= 0. All numbers here are small whole ones: no
+// rounding.
+TEST(KnownProblems, CertificatesProveInfeasibility) {
+  int num_certificates = 0;
+  for (const KnownProblem& known : known_problems()) {
+    const std::vector<double>& y = known.certificate;
+    if (y.empty()) continue;
+    ++num_certificates;
+    EXPECT_EQ(known.num_solutions, 0u) << known.name;
+    const std::size_t n = known.problem.size();
+    double q_y = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      double column = 0.0;
+      for (std::size_t k = 0; k < n; ++k) column += known.problem(k, i) * y[k];
+      EXPECT_GE(y[i], 0.0) << known.name;
+      EXPECT_LE(column, 0.0) << known.name;
+      q_y += known.problem.q[i] * y[i];
+    }
+    EXPECT_LT(q_y, 0.0) << known.name;
+  }
+  EXPECT_EQ(num_certificates, 7);  // of the eight without a solution, one is feasible
 }
 
 TEST(KnownProblems, LemkeFindsASolutionOrSaysThatItFoundNone) {
   for (const KnownProblem& known : known_problems()) {
     const LcpResult result = lemke(known.problem);
-    if (known.vertices.empty() || !known.lemke_finds_one) {
+    // The bimatrix game has solutions that Lemke's path does not reach.
+    if (known.solutions.empty() || known.name == "bimatrix") {
       EXPECT_EQ(result.status, LcpStatus::ray_unproven) << known.name;
       continue;
     }
     EXPECT_EQ(result.status, LcpStatus::solved) << known.name;
-    EXPECT_LT(residual(known.problem, result.z).largest(), 1e-15) << known.name;
+    EXPECT_LT(result.residual, 1e-15) << known.name;
+    EXPECT_EQ(result.residual, residual(known.problem, result.z).largest()) << known.name;
   }
+}
+
+TEST(KnownProblems, TheDefaultSolvesEachOrProvesThatItCannotBeSolved) {
+  for (const KnownProblem& known : known_problems()) {
+    const LcpResult result = solve_lcp(known.problem);
+    if (known.solutions.empty()) {
+      EXPECT_TRUE(result.status == LcpStatus::infeasible || result.status == LcpStatus::no_solution_proved)
+          << known.name << ": " << to_string(result.status);
+      continue;
+    }
+    EXPECT_EQ(result.status, LcpStatus::solved) << known.name;
+    EXPECT_LT(residual(known.problem, result.z).largest(), 1e-12) << known.name;
+  }
+}
+
+TEST(KnownProblems, RefuseCommentsThatCannotBeTrue) {
+  const auto parse = [](const char* comment) {
+    return problems::parse_known_problem(std::string("# any words: are fine\n") + comment + "\nM\n2\nq\n-1\n", "f");
+  };
+  EXPECT_EQ(parse("# solution: 1/2").solutions, std::vector<std::vector<double>>{{0.5}});
+  EXPECT_FALSE(parse("#").num_solutions.has_value());
+  EXPECT_THROW(parse("# solution: 1 2"), std::invalid_argument);
+  EXPECT_THROW(parse("# solution: x"), std::invalid_argument);
+  EXPECT_THROW(parse("# solutions: -1"), std::invalid_argument);
+  EXPECT_THROW(parse("# infeasible:"), std::invalid_argument);
 }
 
 TEST(KnownProblems, LemkeSurvivesGrowthOfTheSolution) {

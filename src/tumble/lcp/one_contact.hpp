@@ -1,6 +1,9 @@
 // The LCP of one planar frictional contact, in closed form.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "tumble/lcp/problem.hpp"
@@ -22,7 +25,7 @@ struct OneContact {
   double friction;  // mu >= 0 [-]
 };
 
-enum class ContactMode {
+enum class ContactMode : std::uint8_t {
   open,        // no force
   stick,       // force inside or on the cone, no slip
   slip_left,   // the contact point slips towards -t (for the ground: -x); friction points to +t
@@ -50,9 +53,35 @@ Vector4 as_z(const OneContactSolution& solution);
 
 // The solution of `as_lcp(contact)`. Where b_n < 0 its motion is unique. Where b_n >= 0 the contact opens without a
 // force; for friction above A_nn / |A_nt| (Painleve) further solutions may exist then, and the one without force is the
-// one returned. Derivation: docs/theory/one_contact.md.
+// one returned: `one_contact_motions` lists the others. Derivation: docs/theory/one_contact.md.
 // The caller vouches for finite numbers, A positive definite and friction >= 0. If that is not so, the status is
-// `numerical`, or the z returned solves the LCP all the same.
+// `numerical` (forces are 0 where they would not be finite), or the z returned solves the LCP all the same.
 OneContactSolution solve_one_contact(const OneContact& contact);
+
+// All motions that the contact may have: one, or, where a contact with much friction opens, up to three.
+struct OneContactMotions {
+  int count = 0;
+  std::array<OneContactSolution, 3> motion;  // the first `count`: what `solve_one_contact` returns, then stick, slip
+  bool has_between = false;                  // only where b_n = 0 and friction is A_nn / |A_nt| to the last bit: every
+                                             // force between that of motion[0] and motion[1] is a solution too
+};
+OneContactMotions one_contact_motions(const OneContact& contact);
+
+// Contacts side by side, an array for each number of OneContact.
+struct OneContactArrays {
+  std::span<const double> A_nn, A_nt, A_tt, b_n, b_t, friction;
+};
+
+// The numbers of OneContactSolution; an empty span is not written to.
+struct OneContactSolutionArrays {
+  std::span<double> f_n, f_t, slip_speed, residual;
+  std::span<ContactMode> mode;
+  std::span<LcpStatus> status;
+};
+
+// `solve_one_contact` for each of the contacts, the same bits, several at a time.
+// Throws std::invalid_argument, naming the field, if an array has another length than A_nn, empty ones of `solutions`
+// excepted.
+void solve_one_contacts(const OneContactArrays& contacts, const OneContactSolutionArrays& solutions);
 
 }  // namespace tumble

@@ -51,12 +51,7 @@ std::string quoted(std::string_view word) {
 }
 
 double number(const std::string& name, const Token& token) {
-  const std::size_t slash = token.text.find('/');
-  std::optional<double> value = parse_number(token.text.substr(0, slash));
-  if (value && slash != std::string_view::npos) {
-    const std::optional<double> denominator = parse_number(token.text.substr(slash + 1));
-    value = denominator ? std::optional(*value / *denominator) : std::nullopt;
-  }
+  const std::optional<double> value = parse_fraction(token.text);
   if (!value) refuse(name, token, fmt::format("expected a number like 1e-3 or 1/3, got {}", quoted(token.text)));
   if (!std::isfinite(*value)) refuse(name, token, fmt::format("must be finite, got {}", quoted(token.text)));
   return *value;

@@ -13,7 +13,7 @@ namespace tumble {
 // No setting accepts more as a solution: at 1e-2 an answer is visibly wrong.
 inline constexpr double k_largest_accepted_residual = 1e-2;
 
-enum class LcpStatus {
+enum class LcpStatus : std::uint8_t {
   solved,              // z is a solution; its residual is within the accepted bound
   no_solution_proved,  // feasible or not, every complementary basis was tried and failed clearly
   ray_unproven,        // Lemke ended on a ray: no solution found, but none excluded either

@@ -34,6 +34,14 @@ std::optional<double> parse_number(std::string_view text) {
 #endif
 }
 
+std::optional<double> parse_fraction(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  const std::optional<double> numerator = parse_number(text.substr(0, slash));
+  if (!numerator || slash == std::string_view::npos) return numerator;
+  const std::optional<double> denominator = parse_number(text.substr(slash + 1));
+  return denominator ? std::optional(*numerator / *denominator) : std::nullopt;
+}
+
 std::string to_text(double value) { return fmt::format("{}", value); }
 
 }  // namespace tumble

@@ -19,6 +19,9 @@ bool all_finite(const Range& values) {
 // The whole of `text` as a finite or non-finite double ("1e-3", "-2", "nan"); nothing if any character is left over.
 std::optional<double> parse_number(std::string_view text);
 
+// The same, or two numbers with a '/' between them: their quotient, rounded once.
+std::optional<double> parse_fraction(std::string_view text);
+
 // Shortest decimal text that reads back to the same bits.
 std::string to_text(double value);
 
