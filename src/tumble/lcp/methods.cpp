@@ -51,13 +51,8 @@ SettingValue as_value(Precision field) {
 }
 
 [[noreturn]] void refuse(std::string_view name, std::string_view expected, const SettingValue& value) {
-  struct Shown {
-    std::string operator()(int x) const { return to_text(x); }
-    std::string operator()(double x) const { return to_text(x); }
-    std::string operator()(const std::string& word) const { return fmt::format("'{}'", word); }
-    std::string operator()(const Basis&) const { return "a basis"; }
-  };
-  throw std::invalid_argument(fmt::format("{}: must be {}, got {}", name, expected, std::visit(Shown(), value)));
+  const char* quote = std::holds_alternative<std::string>(value) ? "'" : "";
+  throw std::invalid_argument(fmt::format("{0}: must be {1}, got {2}{3}{2}", name, expected, quote, to_text(value)));
 }
 
 void assign(std::string_view name, double& field, const SettingValue& value) {
@@ -108,6 +103,16 @@ const LcpMethod& lcp_method(std::string_view name) {
     names.push_back(method.name);
   }
   throw std::invalid_argument(fmt::format("method: must be one of {}, got '{}'", fmt::join(names, ", "), name));
+}
+
+std::string to_text(const SettingValue& value) {
+  struct AsText {
+    std::string operator()(int x) const { return fmt::format("{}", x); }
+    std::string operator()(double x) const { return to_text(x); }
+    std::string operator()(const std::string& word) const { return word; }
+    std::string operator()(const Basis& basis) const { return fmt::format("{}", fmt::join(basis, "")); }
+  };
+  return std::visit(AsText(), value);
 }
 
 std::vector<NamedSetting> named_settings(const LcpSettings& settings) {

@@ -28,6 +28,9 @@ const LcpMethod& lcp_method(std::string_view name);
 // A number; a word, for a choice; a basis, n entries 0 or 1.
 using SettingValue = std::variant<int, double, std::string, std::vector<std::uint8_t>>;
 
+// A basis as zeros and ones.
+std::string to_text(const SettingValue& value);
+
 struct NamedSetting {
   std::string_view name;  // of the field in the settings
   SettingValue value;
