@@ -6,14 +6,14 @@ PYTHON := $(shell command -pv python3 || echo /usr/bin/python3)
 BUILD := build
 CMAKE := cmake -S . -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 
-.PHONY: all run test bench fuzz sanitize install clean help deps-build deps-python configure
+.PHONY: all run test bench bench-lcp fuzz sanitize install clean help deps-build deps-python configure
 
 all: configure ## build the library, the program and the Python package
 	@cmake --build $(BUILD)
 	@echo "built $(BUILD)/bin/tumble and the Python package in $(BUILD)/python"
 
 help: ## this list
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
 
 deps-build:
 	@scripts/deps.sh build
@@ -49,6 +49,15 @@ bench: ## benchmarks; writes out/bench.md
 	@cmake --build $(BUILD)
 	@mkdir -p out
 	@$(PYTHON) benchmarks/run.py --build $(BUILD) --output out/bench.md
+
+LCP_ARGS ?=
+bench-lcp: ## every LCP solver on the same problems; LONG=1 adds millions; writes out/bench-lcp.md, .csv, -*.png
+	@scripts/deps.sh build python bench-lcp
+	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_LCP_BENCHMARKS=ON >/dev/null
+	@cmake --build $(BUILD) --target tumble_bench_lcp
+	@mkdir -p out
+	@$(BUILD)/bin/tumble_bench_lcp $(if $(LONG),--long) $(LCP_ARGS)
+	@$(PYTHON) benchmarks/lcp/plot.py out/bench-lcp.csv
 
 TIME ?= 60
 fuzz: ## libFuzzer on every loader, TIME seconds each (default 60)

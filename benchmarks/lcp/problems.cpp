@@ -358,6 +358,17 @@ ContactSystem next_step(const ContactSystem& resting, const std::vector<double>&
   return next;
 }
 
+Random random_of(std::uint64_t seed, std::uint64_t index) {
+  // Starting points that no whole number of steps of SplitMix64 leads from one to the other, within any list.
+  return Random((seed + 1) * 0xd1342543de82ef95u + index * 0xaf251af3b0f025b5u);
+}
+
+ContactSystem wild_of(std::uint64_t seed, std::uint64_t index, int max_contacts) {
+  Random random = random_of(seed, index);
+  const int num_contacts = 1 + random.below(max_contacts);
+  return wild(random, static_cast<Index>(num_contacts));
+}
+
 std::span<const Family> families() {
   static constexpr std::array<Family, 6> all = {{{"wild", wild},
                                                  {"tower", tower},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -57,6 +58,12 @@ ContactSystem painleve(Random& random, std::size_t num_contacts);
 // What a simulation solves next: the step that follows a resting system's step with the impulses z. The velocity it
 // had, h M^-1 f, acts again, changed by up to one part in a million; offsets are what z left of the gaps, over h.
 ContactSystem next_step(const ContactSystem& resting, const std::vector<double>& z, Random& random);
+
+// The random numbers of problem `index` of a long list, which may then be made in any order.
+Random random_of(std::uint64_t seed, std::uint64_t index);
+
+// The problem `index` of that list, made by `wild` with 1 to `max_contacts` contacts.
+ContactSystem wild_of(std::uint64_t seed, std::uint64_t index, int max_contacts);
 
 struct Family {
   std::string_view name;

@@ -19,78 +19,98 @@ struct Walk {
   LuBasis<Real>& basis;
   double pivot_tolerance;
   int max_pivots;
-  std::vector<Real> x, d;
+  int max_exchanges;
+  std::vector<Real> x,
+      y;  // of the basic variables, slot by slot: values, and what they lose while `entering` grows by 1
+  int entering = LuBasis<Real>::k_none;
   int pivots = 0;
   int factorisations = 0;
 
   static Real round_off() { return Real(256) * std::numeric_limits<Real>::epsilon(); }
 
-  bool factor() {
+  // Factors and values of the basis as it is now. False if it is singular.
+  bool refresh() {
     ++factorisations;
-    return basis.factor();
+    if (!basis.factor()) return false;
+    basis.values(x);
+    return true;
   }
 
-  Real largest(const std::vector<Real>& values) const {
+  static Real largest(const std::vector<Real>& values) {
     using std::abs;
     Real size(0);
-    for (const Real& value : values) size = abs(value) > size ? abs(value) : size;
+    for (const Real& value : values) size = abs(value) > size ? Real(abs(value)) : size;
     return size;
   }
 
-  int most_negative() const {
-    int variable = LuBasis<Real>::k_none;
-    for (int i = 0; i < basis.z0(); ++i) {
-      if (x[i] < Real(0) && (variable < 0 || x[i] < x[variable])) variable = i;
+  int most_negative_slot() const {
+    int slot = LuBasis<Real>::k_none;
+    for (int i = 0; i < static_cast<int>(x.size()); ++i) {
+      if (x[i] < Real(0) && (slot < 0 || x[i] < x[slot])) slot = i;
     }
-    return variable;
+    return slot;
   }
 
-  // The basic variable that first reaches 0 along d; ties go to z0, else to the largest pivot.
-  int blocking_variable() const {
-    const Real smallest_pivot = Real(pivot_tolerance) * largest(d);
+  // The slot whose variable first reaches 0; ties go to z0, else to the largest pivot.
+  int blocking_slot() const {
+    const int n = static_cast<int>(x.size());
+    const Real smallest_pivot = Real(pivot_tolerance) * largest(y);
     const Real error = round_off() * largest(x);
+    const auto value = [&](int i) { return x[i] > Real(0) ? x[i] : Real(0); };
     Real step(0);
     int blocking = LuBasis<Real>::k_none;
-    const auto value = [&](int i) { return x[i] > Real(0) ? x[i] : Real(0); };
-    for (int i = 0; i <= basis.z0(); ++i) {
-      if (!basis.is_basic(i) || !(-d[i] > smallest_pivot)) continue;
-      const Real ratio = value(i) / -d[i];
+    for (int i = 0; i < n; ++i) {
+      if (!(y[i] > smallest_pivot)) continue;
+      const Real ratio = value(i) / y[i];
       if (blocking < 0 || ratio < step) {
         blocking = i;
         step = ratio;
       }
     }
     if (blocking < 0) return blocking;
-    const Real limit = step + error / -d[blocking];
-    for (int i = basis.z0(); i >= 0; --i) {
-      if (!basis.is_basic(i) || !(-d[i] > smallest_pivot)) continue;
-      if (value(i) > limit * -d[i] + error) continue;
-      if (i == basis.z0()) return i;
-      if (d[i] < d[blocking]) blocking = i;
+    const Real limit = step + error / y[blocking];
+    for (int i = 0; i < n; ++i) {
+      if (!(y[i] > smallest_pivot) || value(i) > limit * y[i] + error) continue;
+      if (basis.variable(i) == basis.z0()) return i;
+      if (y[i] > y[blocking]) blocking = i;
     }
     return blocking;
   }
 
+  // The direction of `entering`, from fresh factors where the old ones have lost digits.
+  bool find_direction() {
+    const Real accepted = Real(64) * round_off();
+    if (basis.num_exchanges() >= max_exchanges && basis.num_exchanges() > 0 && !refresh()) return false;
+    if (basis.direction(entering, y) <= accepted || basis.num_exchanges() == 0) return true;
+    if (!refresh()) return false;
+    basis.direction(entering, y);
+    return true;
+  }
+
+  void pivot(int slot) {
+    const Real step = x[slot] / y[slot];
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] -= step * y[i];
+    x[slot] = step;
+    basis.exchange(entering, slot, y);
+    ++pivots;
+  }
+
   // From a complementary basis to one without a negative value.
   LcpStatus run() {
-    if (!factor()) return LcpStatus::numerical;
-    basis.values(x);
-    int leaving = most_negative();
-    if (leaving < 0) return LcpStatus::solved;
-    int entering = basis.z0();
-    for (;; ++pivots) {
+    if (!refresh()) return LcpStatus::numerical;
+    int slot = most_negative_slot();
+    if (slot < 0) return LcpStatus::solved;
+    entering = basis.z0();
+    basis.direction(entering, y);
+    for (;;) {
       if (pivots >= max_pivots) return LcpStatus::iteration_limit;
-      basis.exchange(entering, leaving);
-      if (!factor()) return LcpStatus::numerical;
-      if (leaving == basis.z0()) {
-        ++pivots;
-        return LcpStatus::solved;
-      }
-      basis.values(x);
+      const int leaving = basis.variable(slot);
+      pivot(slot);
+      if (leaving == basis.z0()) return refresh() ? LcpStatus::solved : LcpStatus::numerical;
       entering = basis.complement_of(leaving);
-      basis.direction(entering, d);
-      leaving = blocking_variable();
-      if (leaving < 0) return LcpStatus::ray_unproven;
+      if (!find_direction()) return LcpStatus::numerical;
+      slot = blocking_slot();
+      if (slot < 0) return LcpStatus::ray_unproven;
     }
   }
 };
@@ -103,18 +123,26 @@ LcpStatus walk(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWo
   const auto n = problem.size();
   const int max_pivots = settings.max_pivots > 0 ? settings.max_pivots : 10 * static_cast<int>(n) + 100;
   basis.start(buffers.scaled, settings.ridge, settings.start_basis);
-  Walk<Real> walk{basis, settings.pivot_tolerance, max_pivots, {}, {}};
+  Walk<Real> walk{basis, settings.pivot_tolerance, max_pivots, settings.max_exchanges, {}, {}};
   const LcpStatus status = walk.run();
   result.pivots += walk.pivots;
   result.refactorisations += walk.factorisations;
-  result.basis = basis.basic_z();
-  if (status == LcpStatus::solved) basis.values(walk.x);
-  buffers.z_scaled.assign(n, 0.0);
-  for (std::size_t i = 0; i < n && !walk.x.empty(); ++i) buffers.z_scaled[i] = static_cast<double>(walk.x[n + i]);
+  const int z_begin = static_cast<int>(n);
+  const auto write_z = [&](const std::vector<Real>& of_slots, double sign) {
+    buffers.z_scaled.assign(n, 0.0);
+    for (std::size_t slot = 0; slot < of_slots.size(); ++slot) {
+      const int variable = basis.variable(static_cast<int>(slot));
+      if (variable < z_begin || variable == basis.z0()) continue;
+      buffers.z_scaled[static_cast<std::size_t>(variable - z_begin)] = sign * static_cast<double>(of_slots[slot]);
+    }
+  };
+  for (int i = 0; i < z_begin; ++i) result.basis[static_cast<std::size_t>(i)] = basis.is_basic(z_begin + i);
+  write_z(walk.x, 1.0);
   unscale(buffers.scaled, buffers.z_scaled, buffers.z);
   judge_candidate(problem, workspace);
   if (status == LcpStatus::ray_unproven) {
-    for (std::size_t i = 0; i < n; ++i) buffers.z_scaled[i] = static_cast<double>(walk.d[n + i]);
+    write_z(walk.y, -1.0);
+    if (walk.entering >= z_begin) buffers.z_scaled[static_cast<std::size_t>(walk.entering - z_begin)] = 1.0;
     unscale(buffers.scaled, buffers.z_scaled, result.certificate);
   }
   return status;
@@ -126,6 +154,7 @@ void validate(const LemkeLuSettings& settings) {
   require(settings.max_pivots >= 0, "max_pivots", ">= 0", settings.max_pivots);
   require(settings.pivot_tolerance >= 0.0 && settings.pivot_tolerance < 1.0, "pivot_tolerance", "in [0, 1)",
           settings.pivot_tolerance);
+  require(settings.max_exchanges >= 0, "max_exchanges", ">= 0", settings.max_exchanges);
   require_accepted_residual(settings.accepted_residual);
   require(settings.ridge >= 0.0 && settings.ridge <= 1e-6, "ridge", "in [0, 1e-6]", settings.ridge);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tumble/lcp/enumerate.hpp"
+#include "tumble/lcp/infeasibility.hpp"
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t k_max_quad_size = 100;  // above, one solve with 113 bits takes minutes
 constexpr std::size_t k_max_tableau_size = 1000;
+constexpr std::size_t k_max_infeasibility_size = 200;  // above, the search takes minutes
 
 // One step of the ladder: improves workspace.result, or leaves it.
 using Rung = void (*)(const LcpProblem&, const RobustSettings&, LcpWorkspace&);
@@ -22,7 +24,9 @@ using Rung = void (*)(const LcpProblem&, const RobustSettings&, LcpWorkspace&);
 // Judges buffers.z.
 void offer(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   judge_candidate(problem, workspace);
-  if (workspace.result.residual <= settings.accepted_residual) workspace.result.status = LcpStatus::solved;
+  if (!(workspace.result.residual <= settings.accepted_residual)) return;
+  workspace.result.status = LcpStatus::solved;
+  workspace.result.certificate.clear();
 }
 
 // Rungs for contacts need no scaling: units of contacts cannot mislead them.
@@ -118,6 +122,23 @@ void try_lemke_lu(const LcpProblem& problem, const RobustSettings& settings, Lcp
   run_lemke_lu(problem, {.accepted_residual = settings.accepted_residual}, workspace);
 }
 
+// Lemke's ray is a proof itself where M is copositive-plus [Cottle 1992, theorem 4.4.11]; else one is looked for.
+bool prove_infeasible(const LcpProblem& problem, LcpWorkspace& workspace) {
+  LcpResult& result = workspace.result;
+  if (!is_infeasibility_certificate(problem, result.certificate)) {
+    if (problem.size() > k_max_infeasibility_size) return false;
+    std::vector<double> y = find_infeasibility(problem);
+    if (y.empty()) return false;
+    result.certificate = std::move(y);
+  }
+  result.status = LcpStatus::infeasible;
+  return true;
+}
+
+void try_infeasible(const LcpProblem& problem, const RobustSettings&, LcpWorkspace& workspace) {
+  prove_infeasible(problem, workspace);
+}
+
 void try_lemke_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   if (problem.size() > k_max_quad_size) return;
   run_lemke_lu(problem,
@@ -157,15 +178,20 @@ void try_enumerate(const LcpProblem& problem, const RobustSettings& settings, Lc
 }
 
 constexpr std::array<Rung, 2> k_contact_ladder = {try_closed_form, try_modes};
-constexpr std::array<Rung, 6> k_ladder = {try_warm_start, try_lemke, try_lemke_lu,
+constexpr std::array<Rung, 7> k_ladder = {try_warm_start, try_lemke, try_lemke_lu, try_infeasible,
                                           try_lemke_quad, try_ridge, try_enumerate};
 
-// True once a rung has solved the problem.
+bool is_decided(const LcpResult& result) {
+  return result.status == LcpStatus::solved || result.status == LcpStatus::infeasible ||
+         result.status == LcpStatus::no_solution_proved;
+}
+
+// True once a rung has solved the problem, or proved that nothing can.
 bool climb(std::span<const Rung> ladder, const LcpProblem& problem, const RobustSettings& settings,
            LcpWorkspace& workspace) {
   for (const Rung rung : ladder) {
     rung(problem, settings, workspace);
-    if (workspace.result.status == LcpStatus::solved) return true;
+    if (is_decided(workspace.result)) return true;
   }
   return false;
 }
@@ -175,14 +201,28 @@ bool climb_strictly(const LcpProblem& problem, const RobustSettings& settings, L
   LcpWorkspace::Buffers& buffers = workspace.buffers();
   std::swap(buffers.row_sizes, buffers.other_row_sizes);
   buffers.row_sizes.assign(problem.size(), 0.0);
-  const bool is_solved = climb(k_ladder, problem, settings, workspace);
+  const bool is_done = climb(k_ladder, problem, settings, workspace);
   std::swap(buffers.row_sizes, buffers.other_row_sizes);
-  if (workspace.result.z.empty()) return false;
+  if (workspace.result.z.empty()) return is_done;
   // The residual reported is that of `residual`.
   buffers.z = workspace.result.z;
   workspace.result.z.clear();
-  offer(problem, settings, workspace);
-  return is_solved;
+  judge_candidate(problem, workspace);
+  return is_done;
+}
+
+// An answer far larger than q calls for may be one of a problem nearby, while this one has none: z = 1e13 (1, 1)
+// "solves" the infeasible M = [1 -1; -1 1], q = (-1, -1) but for the last bits of M z.
+void doubt_large_answer(const LcpProblem& problem, LcpWorkspace& workspace) {
+  constexpr double large = 1e8;
+  const ScaledProblem& scaled = workspace.buffers().scaled;  // |q| is at most 1 there
+  const std::vector<double>& z = workspace.result.z;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (scaled_by(z[i], -scaled.z_exponent[i]) > large) {
+      prove_infeasible(problem, workspace);
+      return;
+    }
+  }
 }
 
 }  // namespace
@@ -196,8 +236,9 @@ void run_robust(const LcpProblem& problem, const RobustSettings& settings, LcpWo
   if (buffers.has_contacts && climb(k_contact_ladder, problem, settings, workspace)) return;
   scale(problem, buffers.scaled);
   const bool has_sizes = buffers.has_contacts || !problem.row_sizes.empty();
-  if (!has_sizes && climb_strictly(problem, settings, workspace)) return;
-  if (climb(k_ladder, problem, settings, workspace)) return;
+  const bool is_done = !has_sizes && climb_strictly(problem, settings, workspace);
+  if (!is_done) climb(k_ladder, problem, settings, workspace);
+  if (workspace.result.status == LcpStatus::solved) doubt_large_answer(problem, workspace);
 }
 
 LcpResult robust(const LcpProblem& problem, const RobustSettings& settings) {

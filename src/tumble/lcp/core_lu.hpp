@@ -1,0 +1,72 @@
+// LU factors of the core of a basis: dense ones where it is small or full, sparse ones else. Not a public header.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/SparseLU>
+
+#include "tumble/lcp/dense_lu.hpp"
+
+namespace tumble {
+
+template <class Real>
+class CoreLu {
+ public:
+  // Begins a k x k matrix, to be filled column after column by `add`, then factored. `num_entries` is an estimate.
+  void start(std::size_t k, std::size_t num_entries) {
+    k_ = k;
+    is_sparse_ = std::is_same_v<Real, double> && k >= 40 && 6 * num_entries < k * k;
+    if (is_sparse_) {
+      triplets_.clear();
+    } else {
+      std::vector<Real>& entries = dense_.start(k);
+      std::fill(entries.begin(), entries.end(), Real(0));
+      entries_ = &entries;
+    }
+  }
+
+  void add(std::size_t row, std::size_t column, const Real& value) {
+    if constexpr (std::is_same_v<Real, double>) {
+      if (is_sparse_) {
+        triplets_.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+        return;
+      }
+    }
+    (*entries_)[row * k_ + column] = value;
+  }
+
+  // False if the matrix is singular.
+  bool factor() {
+    if (!is_sparse_) return dense_.factor();
+    const auto k = static_cast<Eigen::Index>(k_);
+    matrix_.resize(k, k);
+    matrix_.setFromTriplets(triplets_.begin(), triplets_.end());
+    sparse_.compute(matrix_);
+    return sparse_.info() == Eigen::Success;
+  }
+
+  // x with A x = b; b and x have k entries and may not overlap.
+  void solve(const Real* b, Real* x) {
+    if constexpr (std::is_same_v<Real, double>) {
+      if (is_sparse_) {
+        const auto k = static_cast<Eigen::Index>(k_);
+        Eigen::Map<Eigen::VectorXd>(x, k) = sparse_.solve(Eigen::Map<const Eigen::VectorXd>(b, k));
+        return;
+      }
+    }
+    dense_.solve(b, x);
+  }
+
+ private:
+  std::size_t k_ = 0;
+  bool is_sparse_ = false;
+  DenseLu<Real> dense_;
+  std::vector<Real>* entries_ = nullptr;
+  std::vector<Eigen::Triplet<double>> triplets_;
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> sparse_;
+};
+
+}  // namespace tumble

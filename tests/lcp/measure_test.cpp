@@ -1,0 +1,55 @@
+// The comparison of solvers must survive the solvers.
+#include "measure.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace tumble::bench {
+namespace {
+
+// Answers z for every case, after doing `first`.
+Solver answering(
+    const std::string& name, double z, bool is_solved, void (*first)(const Case&) = [](const Case&) {}) {
+  return {name, [=](const Case& c) -> std::optional<Attempt> {
+            auto answer = std::make_shared<std::vector<double>>(1, z);
+            return Attempt{[=, &c] { first(c); }, [=] { return Answer{is_solved, *answer}; }};
+          }};
+}
+
+TEST(Measure, JudgesAnswersAndOutlivesCrashesAndHangs) {
+  // z = 1; and no solution.
+  const std::vector<Case> cases = {{"g", "one", {{1}, {-1}, {}}, {}, false, {}},
+                                   {"g", "none", {{-1}, {-1}, {}}, {}, true, {}}};
+  const std::vector<Solver> solvers = {
+      answering("right", 1.0, true),
+      answering("wrong", 0.5, true),
+      answering("no", 0.0, false),
+      answering("crashes on the first", 1.0, true,
+                [](const Case& c) {
+                  if (!c.has_no_solution) std::abort();
+                }),
+      answering("hangs on the first", 1.0, true,
+                [](const Case& c) {
+                  if (!c.has_no_solution) std::this_thread::sleep_for(std::chrono::minutes(1));
+                }),
+      {"not for these", [](const Case&) { return std::optional<Attempt>(); }},
+      answering("last", 1.0, true),
+  };
+  std::size_t num_done = 0;
+  const std::vector<Measurement> m = measure(cases, solvers, 1.0, [&](std::size_t done) { num_done = done; });
+  using enum Verdict;
+  const std::vector<Verdict> expected = {good,  wrong, said_no, crashed, timed_out, good,  //
+                                         wrong, wrong, good,    wrong,   wrong,     wrong};
+  ASSERT_EQ(m.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(m[i].verdict, expected[i]) << "case " << m[i].case_index << ", " << solvers[m[i].solver_index].name;
+  }
+  EXPECT_EQ(num_done, cases.size());
+}
+
+}  // namespace
+}  // namespace tumble::bench
