@@ -22,35 +22,25 @@ using namespace py::literals;
 
 namespace {
 
-// Zeros and ones, or booleans, of shape (n,) or, for a batch, (N, n).
-struct Bits {
-  std::vector<std::uint8_t> values;
-  std::vector<py::ssize_t> shape;
-};
-
-Bits as_bits(const py::handle& object, const char* name) {
+// Booleans as zeros and ones, for `as_array`; anything else as it is.
+py::object without_bools(const py::handle& object) {
   const auto array = py::array::ensure(object);
-  if (!array) {
-    PyErr_Clear();
-    throw std::invalid_argument(fmt::format("{}: must be an array of zeros and ones", name));
-  }
-  Bits bits{{}, {array.shape(), array.shape() + array.ndim()}};
-  const auto numbers = array.dtype().kind() == 'b' ? Array::ensure(array)
-                                                   : as_array(array, name, {bits.shape.begin(), bits.shape.end()});
-  for (py::ssize_t i = 0; i < numbers.size(); ++i) {
-    const double x = numbers.data()[i];
-    if (x != 0.0 && x != 1.0) throw std::invalid_argument(fmt::format("{}: must be zeros and ones, got {}", name, x));
-    bits.values.push_back(x == 1.0);
-  }
-  return bits;
+  if (!array) PyErr_Clear();
+  if (!array || array.dtype().kind() != 'b') return py::reinterpret_borrow<py::object>(object);
+  return Array::ensure(array);
 }
 
-SettingValue as_setting(const std::string& name, const py::handle& value) {
+bool is_list(const LcpSettings& settings, const std::string& name) {
+  const std::vector<NamedSetting> all = named_settings(settings);
+  return std::any_of(all.begin(), all.end(), [&](const NamedSetting& setting) {
+    return setting.name == name && std::holds_alternative<std::vector<double>>(setting.value);
+  });
+}
+
+SettingValue as_setting(const LcpSettings& settings, const std::string& name, const py::handle& value) {
   if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
-  if (name != "start_basis") return as_number(value, name.c_str());
-  Bits bits = as_bits(value, "start_basis");
-  if (bits.shape.size() != 1) throw std::invalid_argument("start_basis: must have shape (n,)");
-  return std::move(bits.values);
+  if (is_list(settings, name)) return as_vector(as_array(without_bools(value), name.c_str(), {-1}));
+  return as_number(value, name.c_str());
 }
 
 LcpProblem as_problem(const py::handle& M, const py::handle& q, const py::handle& row_sizes = py::none()) {
@@ -96,6 +86,8 @@ class PerProblem {
     array_ = as_array(object, name, shape);
     begin_ = array_.data();
   }
+
+  bool is_empty() const { return size_ == 0; }
 
   void copy(std::size_t i, std::vector<double>& to) const {
     const double* from = begin_ + static_cast<py::ssize_t>(i) * stride_;
@@ -180,13 +172,11 @@ py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle&
   if (n == 0) throw std::invalid_argument("q: must have at least 1 entry per problem, got 0");
   const PerProblem all_M(M, "M", count, {n, n}), all_q(vectors, "q", count, {n});
   const PerProblem sizes = row_sizes.is_none() ? PerProblem() : PerProblem(row_sizes, "row_sizes", count, {n});
-  const Bits bases = start.is_none() ? Bits() : as_bits(start, "start");
-  if (!start.is_none() && bases.shape != std::vector{n} && bases.shape != std::vector{count, n}) {
-    throw std::invalid_argument(fmt::format("start: must have shape ({0},) or ({1}, {0})", n, count));
-  }
-  const auto base_stride = static_cast<std::size_t>(bases.shape.size() == 2 ? n : 0);
   LcpSettings chosen = as_settings(method, settings);
-  if (!start.is_none()) set_setting(chosen, "start_basis", std::vector<std::uint8_t>());
+  const std::string start_name = is_list(chosen, "start_z") ? "start_z" : "start_basis";
+  const PerProblem starts =
+      start.is_none() ? PerProblem() : PerProblem(without_bools(start), start_name.c_str(), count, {n});
+  if (!start.is_none()) set_setting(chosen, start_name, std::vector<double>());
   validate(chosen);
   const double wanted = as_number(threads, "threads");
   if (!(wanted >= 0.0 && wanted <= 1024.0 && wanted == std::trunc(wanted))) {
@@ -199,15 +189,15 @@ py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle&
   {
     const py::gil_scoped_release without_gil;
     in_parallel(static_cast<std::size_t>(count), num_threads, [&] {
-      return [&, own = chosen, problem = LcpProblem(), workspace = LcpWorkspace()](std::size_t begin,
-                                                                                   std::size_t end) mutable {
+      return [&, own = chosen, problem = LcpProblem(), list = std::vector<double>(), workspace = LcpWorkspace()](
+                 std::size_t begin, std::size_t end) mutable {
         for (std::size_t i = begin; i < end; ++i) {
           all_M.copy(i, problem.M);
           all_q.copy(i, problem.q);
           sizes.copy(i, problem.row_sizes);
-          if (!bases.values.empty()) {
-            const std::uint8_t* basis = bases.values.data() + i * base_stride;
-            set_by_name(own, "start_basis", std::vector<std::uint8_t>(basis, basis + n));
+          if (!starts.is_empty()) {
+            starts.copy(i, list);
+            set_by_name(own, start_name, list);
           }
           arrays.write(i, solve_lcp(problem, own, workspace));
         }
@@ -244,13 +234,13 @@ py::dict methods() {
   return summaries;
 }
 
-// {name: default}; None for a basis, of which none is the default.
+// {name: default}; None for a list, of which none is the default.
 py::dict settings_of(const py::handle& method) {
   struct AsObject {
     py::object operator()(int count) const { return py::int_(count); }
     py::object operator()(double number) const { return py::float_(number); }
     py::object operator()(const std::string& word) const { return py::str(word); }
-    py::object operator()(const std::vector<std::uint8_t>&) const { return py::none(); }
+    py::object operator()(const std::vector<double>&) const { return py::none(); }
   };
   py::dict defaults;
   for (const NamedSetting& setting : named_settings(as_settings(method, {}))) {
@@ -283,7 +273,7 @@ LcpSettings as_settings(const py::handle& method, const py::dict& settings) {
   LcpSettings chosen = lcp_method(py::cast<std::string>(method)).defaults;
   for (const auto& [name, value] : settings) {
     const auto field = py::cast<std::string>(name);
-    set_setting(chosen, field, as_setting(field, value));
+    set_setting(chosen, field, as_setting(chosen, field, value));
   }
   return chosen;
 }

@@ -266,7 +266,7 @@ def test_lcp_takes_settings_of_the_method(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("M\n2 1\n1 2\nq\n-5 -6\n")
     run = tumble("lcp", "a.txt", "--method", "lemke", "--set", "max_pivots=1", "--set", "pivot_tolerance=1e-6", cwd=tmp_path)
     assert run.returncode == 3 and "iteration_limit" in run.stdout
-    text = succeed("lcp", "a.txt", "--method", "lemke_lu", "--set", "precision=quad", "--set", "start_basis=11", cwd=tmp_path)
+    text = succeed("lcp", "a.txt", "--method", "lemke_lu", "--set", "precision=quad", "--set", "start_basis=1,1", cwd=tmp_path)
     assert "lemke_quad" in text and "pivots            0" in text
 
 
@@ -278,7 +278,7 @@ def test_lcp_takes_settings_of_the_method(tmp_path: Path) -> None:
         (["--method", "lemke", "--set", "max_pivots=x"], "max_pivots: must be a number, got 'x'"),
         (["--method", "lemke", "--set", "max_pivots=-1"], "max_pivots: must be >= 0, got -1"),
         (["--set", "accepted_residual"], "--set: must be NAME=VALUE, got 'accepted_residual'"),
-        (["--set", "start_basis=012"], "start_basis: must be zeros and ones, got '012'"),
+        (["--set", "start_basis=0,2"], "start_basis: must be zeros and ones, got 2"),
         (["--set", "start_basis=1"], "start_basis: must be empty or have 2 entries, got 1"),
         (["--all", "--method", "lemke"], "--all: belongs to the method enumerate, got --method lemke"),
         (["--trace", "--method", "robust"], "--trace: belongs to the method lemke, got --method robust"),
@@ -309,7 +309,7 @@ def test_lcp_of_several_files_is_a_table_and_the_worst_exit_code(tmp_path: Path)
     run = tumble("lcp", "none.txt", "good.txt", "bad.txt", "--json", cwd=tmp_path)
     reports = json.loads(run.stdout)
     assert [report["file"] for report in reports] == ["none.txt", "good.txt", "bad.txt"]
-    assert [report["status"] for report in reports] == ["no_solution_proved", "solved", "bad_input"]
+    assert [report["status"] for report in reports] == ["infeasible", "solved", "bad_input"]
     run = tumble("lcp", "none.txt", "good.txt", "--all", cwd=tmp_path)
     assert run.returncode == 3 and run.stdout.splitlines()[2].split()[-2:] == ["1", "enumerate"]
     assert tumble("lcp", "none.txt", "good.txt", "--quiet", cwd=tmp_path).stdout == ""
@@ -365,7 +365,7 @@ def test_lcp_lists_all_solutions(tmp_path: Path) -> None:
 
 def test_lcp_without_solution_exits_with_3(tmp_path: Path) -> None:
     run = tumble("lcp", "-", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
-    assert run.returncode == 3 and "no_solution_proved" in run.stdout
+    assert run.returncode == 3 and "infeasible" in run.stdout and "(y: M'y <= 0, y >= 0, q'y < 0)" in run.stdout
     run = tumble("lcp", "-", "--method", "lemke", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
     assert run.returncode == 3 and "ray_unproven" in run.stdout
     run = tumble("lcp", "-", "--method", "enumerate", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")

@@ -39,7 +39,7 @@ TEST(Methods, ValuesReachTheirFields) {
   set_by_name(settings, "max_pivots", 7.0);
   set_by_name(settings, "pivot_tolerance", std::string("1e-5"));
   set_by_name(settings, "precision", std::string("quad"));
-  set_by_name(settings, "start_basis", std::string("011"));
+  set_by_name(settings, "start_basis", std::string("0,1,1"));
   const auto& set = std::get<LemkeLuSettings>(settings);
   EXPECT_EQ(set.max_pivots, 7);
   EXPECT_EQ(set.pivot_tolerance, 1e-5);
@@ -47,7 +47,7 @@ TEST(Methods, ValuesReachTheirFields) {
   EXPECT_EQ(set.start_basis, (std::vector<std::uint8_t>{0, 1, 1}));
   std::string text;
   for (const NamedSetting& setting : named_settings(settings)) text += to_text(setting.value) + ' ';
-  EXPECT_EQ(text, "7 1e-05 1e-08 quad 0 011 ");
+  EXPECT_EQ(text, "7 1e-05 1e-08 quad 0 0,1,1 ");
 }
 
 template <class Call>
@@ -68,10 +68,12 @@ TEST(Methods, MistakesAreNamed) {
   EXPECT_EQ(set("max_pivots", 1.5), "max_pivots: must be a whole number, got 1.5");
   EXPECT_EQ(set("max_pivots", 1e300), "max_pivots: must be a whole number, got 1e+300");
   EXPECT_EQ(set("max_pivots", std::string("many")), "max_pivots: must be a number, got 'many'");
-  EXPECT_EQ(set("ridge", std::vector<std::uint8_t>{1}), "ridge: must be a number, got 1");
+  EXPECT_EQ(set("ridge", std::vector{1.0, 2.0}), "ridge: must be a number, got 1,2");
   EXPECT_EQ(set("precision", std::string("half")), "precision: must be double or quad, got 'half'");
   EXPECT_EQ(set("precision", 2.0), "precision: must be double or quad, got 2");
-  EXPECT_EQ(set("start_basis", std::string("012")), "start_basis: must be zeros and ones, got '012'");
+  EXPECT_EQ(set("start_basis", std::string("0,1,2")), "start_basis: must be zeros and ones, got 2");
+  EXPECT_EQ(set("start_basis", std::string("0,,1")), "start_basis: must be numbers separated by commas, got '0,,1'");
+  EXPECT_EQ(set("start_basis", 1.0), "start_basis: must be a list of numbers, got 1");
   EXPECT_EQ(message_of([] { lcp_method("simplex"); }).substr(0, 36), "method: must be one of robust, lemke");
   settings = EnumerateSettings{};
   EXPECT_THROW(set_by_name(settings, "ridge", 0.0), UnknownSetting);

@@ -27,6 +27,14 @@ def test_the_default_is_robust() -> None:
     assert lcp.solve(M, np.abs(q)).rung == "none"
 
 
+def test_infeasible_problems_come_with_their_proof() -> None:
+    M, q = np.array([[-1.0, 2.0], [-1.0, -1.0]]), np.array([1.0, -1.0])
+    for result in (lcp.solve(M, q), lcp.solve_batch(M, [q])[0]):
+        y = result.certificate
+        assert result.status == "infeasible" and y is not None
+        assert (y >= 0).all() and (M.T @ y <= 0).all() and q @ y < 0
+
+
 def test_a_ray_is_handed_out() -> None:
     ray = lcp.solve([[-1.0]], [-1.0], "lemke")
     assert ray.status == "ray_unproven" and ray.certificate is not None and ray.certificate.shape == (1,)
@@ -234,7 +242,7 @@ def test_any_size(n: int) -> None:
         (lambda: lcp.solve([[1.0]], [1.0], "lemke_lu", precision="half"), "precision: must be double or quad, got 'half'"),
         (lambda: lcp.solve([[1.0]], [1.0], start=[True, False]), "start_basis: must be empty or have 1 entries, got 2"),
         (lambda: lcp.solve([[1.0]], [1.0], start=[0.5]), "start_basis: must be zeros and ones, got 0.5"),
-        (lambda: lcp.solve([[1.0]], [1.0], start=[[True]]), r"start_basis: must have shape \(n,\)"),
+        (lambda: lcp.solve([[1.0]], [1.0], start=[[True]]), r"start_basis: must have shape \(n,\), got \(1, 1\)"),
         (lambda: lcp.solve([[1.0]], [1.0], row_sizes=[1.0, 2.0]), r"row_sizes: must have shape \(1,\), got \(2,\)"),
         (lambda: lcp.solve([[1.0]], [1.0], row_sizes=[-1.0]), r"row_sizes\[0\]: must be finite and >= 0, got -1"),
         (lambda: lcp.solve([[1j]], [1.0]), "M: must be an array of real numbers, got dtype complex128"),
@@ -244,7 +252,7 @@ def test_any_size(n: int) -> None:
         (lambda: lcp.solve_batch(np.eye(3), np.ones((5, 2))), r"M: must have shape \(2, 2\), got \(3, 3\)"),
         (lambda: lcp.solve_batch(np.ones((4, 2, 2)), np.ones((5, 2))), r"M: must have shape \(5, 2, 2\), got \(4, 2, 2\)"),
         (lambda: lcp.solve_batch(np.eye(2), np.ones((5, 2)), row_sizes=[1.0]), r"row_sizes: must have shape \(2,\), got \(1,\)"),
-        (lambda: lcp.solve_batch(np.eye(2), np.ones((5, 2)), start=[1]), r"start: must have shape \(2,\) or \(5, 2\)"),
+        (lambda: lcp.solve_batch(np.eye(2), np.ones((5, 2)), start=[1]), r"start_basis: must have shape \(2,\), got \(1,\)"),
         (lambda: lcp.solve_batch(np.eye(2), np.ones((5, 2)), threads=-1), r"threads: must be a whole number in \[0, 1024\], got -1"),
         (lambda: lcp.solve_batch(np.eye(2), np.ones((5, 2)), threads=1.5), "threads: must be a whole number"),
         (lambda: lcp.solve_batch(np.eye(2), np.ones((5, 2)), accepted_residual=1.0), "accepted_residual: must be in"),

@@ -187,10 +187,18 @@ def _as_result(fields: dict[str, Any]) -> Result:
     return Result(parts=parts, **fields)
 
 
-def _with_start(start: Result | ArrayLike | None, settings: dict[str, Any]) -> dict[str, Any]:
+def _start_name(method: str) -> str:
+    """The setting that takes a start: the methods that sweep begin at a z, the others at a basis."""
+    return "start_z" if "start_z" in default_settings(method) else "start_basis"
+
+
+def _with_start(method: str, start: Result | ArrayLike | None, settings: dict[str, Any]) -> dict[str, Any]:
     if start is None:
         return settings
-    return {**settings, "start_basis": start.basis if isinstance(start, Result) else start}
+    name = _start_name(method)
+    if isinstance(start, Result):
+        start = start.z if name == "start_z" else start.basis
+    return {**settings, name: start}
 
 
 def solve(
@@ -218,9 +226,9 @@ def solve(
         - "enumerate": all 2^n bases, n <= 12; a "no" from it is a proof.
     row_sizes : array_like, shape (n,), optional
         The typical size of each w_i, see `residual`. `contact_problem` gives them.
-    start : Result or array_like of bool, shape (n,), optional
+    start : Result or array_like, shape (n,), optional
         The result of a problem like this one, or its basis. It is tried first; if it still fits, no pivot is made.
-        Only some methods take it: those with the setting start_basis.
+        Methods with the setting start_basis take it, and those with start_z, which want a z in place of a basis.
     **settings
         Settings of the method, by name; `default_settings` lists them.
 
@@ -259,9 +267,9 @@ def solve(
     No z fits -z - 1 >= 0:
 
     >>> solve([[-1]], [-1]).status
-    'no_solution_proved'
+    'infeasible'
     """
-    return _as_result(_core.solve(M, q, method, row_sizes, _with_start(start, settings)))
+    return _as_result(_core.solve(M, q, method, row_sizes, _with_start(method, start, settings)))
 
 
 def solve_batch(
@@ -288,8 +296,8 @@ def solve_batch(
         One of `METHODS`.
     row_sizes : array_like, shape (N, n) or (n,), optional
         The typical size of each w_i, see `residual`.
-    start : BatchResult or array_like of bool, shape (N, n) or (n,), optional
-        Bases to try first, see `solve`.
+    start : BatchResult or array_like, shape (N, n) or (n,), optional
+        Where to start, see `solve`.
     threads : int
         0 takes one for each processor. The interpreter is free while they work.
     **settings
@@ -314,8 +322,9 @@ def solve_batch(
     >>> batch[0].z
     array([1.33333333, 2.33333333])
     """
-    bases = start.basis if isinstance(start, BatchResult) else start
-    fields = _core.solve_batch(M, q, method, row_sizes, bases, threads, settings)
+    if isinstance(start, BatchResult):
+        start = start.z if _start_name(method) == "start_z" else start.basis
+    fields = _core.solve_batch(M, q, method, row_sizes, start, threads, settings)
     status, rung = _STATUSES[fields.pop("status")], _RUNGS[fields.pop("rung")]
     return BatchResult(status=status, rung=rung, **fields)
 
@@ -336,7 +345,7 @@ def default_settings(method: str = "robust") -> dict[str, Any]:
         - accepted_residual: "solved" means a residual no larger than this, in (0, 0.01];
         - precision: "double" (53 bits) or "quad" (113 bits, some 50 times slower);
         - ridge: added to the diagonal of the scaled M; the answer is judged without, in [0, 1e-6];
-        - start_basis: see `start` of `solve`.
+        - start_basis, start_z: see `start` of `solve`.
 
     Raises
     ------
@@ -456,9 +465,9 @@ def solve_contacts(
     >>> (hit.velocity + 0.0).round(6)
     array([-0.166667,  0.      ,  1.666667])
     """
-    basis = start.result if isinstance(start, ContactResult) else start
+    first = start.result if isinstance(start, ContactResult) else start
     fields = _core.solve_contacts(
-        J_n, J_t, inverse_mass, velocity, friction, offset, method, _with_start(basis, settings)
+        J_n, J_t, inverse_mass, velocity, friction, offset, method, _with_start(method, first, settings)
     )
     result = _as_result(fields.pop("result"))
     return ContactResult(result=result, **fields)

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,8 +16,6 @@
 
 namespace tumble {
 namespace {
-
-using Basis = std::vector<std::uint8_t>;
 
 // A new method is one row here. A setting of a new name is one line in `visit_settings`.
 const std::array k_methods = {
@@ -32,11 +32,15 @@ const std::array k_methods = {
 template <class Settings, class Visit>
 void visit_settings(Settings& settings, const Visit& visit) {
   if constexpr (requires { settings.max_pivots; }) visit("max_pivots", settings.max_pivots);
+  if constexpr (requires { settings.max_iterations; }) visit("max_iterations", settings.max_iterations);
+  if constexpr (requires { settings.max_sweeps; }) visit("max_sweeps", settings.max_sweeps);
+  if constexpr (requires { settings.relaxation; }) visit("relaxation", settings.relaxation);
   if constexpr (requires { settings.pivot_tolerance; }) visit("pivot_tolerance", settings.pivot_tolerance);
   if constexpr (requires { settings.accepted_residual; }) visit("accepted_residual", settings.accepted_residual);
   if constexpr (requires { settings.precision; }) visit("precision", settings.precision);
   if constexpr (requires { settings.ridge; }) visit("ridge", settings.ridge);
   if constexpr (requires { settings.start_basis; }) visit("start_basis", settings.start_basis);
+  if constexpr (requires { settings.start_z; }) visit("start_z", settings.start_z);
 }
 
 constexpr std::array<std::pair<std::string_view, Precision>, 2> k_precisions = {
@@ -44,7 +48,10 @@ constexpr std::array<std::pair<std::string_view, Precision>, 2> k_precisions = {
 
 SettingValue as_value(int field) { return field; }
 SettingValue as_value(double field) { return field; }
-SettingValue as_value(const Basis& field) { return field; }
+template <class Number>
+SettingValue as_value(const std::vector<Number>& field) {
+  return std::vector<double>(field.begin(), field.end());
+}
 SettingValue as_value(Precision field) {
   const auto has_value = [&](const auto& choice) { return choice.second == field; };
   return std::string(std::find_if(k_precisions.begin(), k_precisions.end(), has_value)->first);
@@ -81,15 +88,29 @@ void assign(std::string_view name, Precision& field, const SettingValue& value) 
   field = found->second;
 }
 
-void assign(std::string_view name, Basis& field, const SettingValue& value) {
-  if (const auto* basis = std::get_if<Basis>(&value)) {
-    field = *basis;
-    return;
-  }
+std::vector<double> as_list(std::string_view name, const SettingValue& value) {
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return *list;
   const auto* word = std::get_if<std::string>(&value);
-  if (word == nullptr || word->find_first_not_of("01") != std::string::npos) refuse(name, "zeros and ones", value);
+  if (word == nullptr) refuse(name, "a list of numbers", value);
+  std::vector<double> list;
+  for (std::size_t at = 0; at <= word->size();) {
+    const std::size_t comma = std::min(word->find(',', at), word->size());
+    const auto number = parse_number(word->substr(at, comma - at));
+    if (!number) refuse(name, "numbers separated by commas", value);
+    list.push_back(*number);
+    at = comma + 1;
+  }
+  return list;
+}
+
+// Numbers, or the zeros and ones of a basis.
+template <class Number>
+void assign(std::string_view name, std::vector<Number>& field, const SettingValue& value) {
   field.clear();
-  for (const char digit : *word) field.push_back(digit == '1');
+  for (const double x : as_list(name, value)) {
+    if (std::is_same_v<Number, std::uint8_t> && x != 0.0 && x != 1.0) refuse(name, "zeros and ones", x);
+    field.push_back(static_cast<Number>(x));
+  }
 }
 
 }  // namespace
@@ -110,7 +131,7 @@ std::string to_text(const SettingValue& value) {
     std::string operator()(int x) const { return fmt::format("{}", x); }
     std::string operator()(double x) const { return to_text(x); }
     std::string operator()(const std::string& word) const { return word; }
-    std::string operator()(const Basis& basis) const { return fmt::format("{}", fmt::join(basis, "")); }
+    std::string operator()(const std::vector<double>& list) const { return fmt::format("{}", fmt::join(list, ",")); }
   };
   return std::visit(AsText(), value);
 }

@@ -1,7 +1,6 @@
 // The solvers and their settings by name, for programs that get both as words.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -25,10 +24,10 @@ std::span<const LcpMethod> lcp_methods();
 // Throws std::invalid_argument, with the list of names, if there is none of this name.
 const LcpMethod& lcp_method(std::string_view name);
 
-// A number; a word, for a choice; a basis, n entries 0 or 1.
-using SettingValue = std::variant<int, double, std::string, std::vector<std::uint8_t>>;
+// A number; a word, for a choice; a list of numbers, 0 or 1 for a basis.
+using SettingValue = std::variant<int, double, std::string, std::vector<double>>;
 
-// A basis as zeros and ones.
+// A list as "0,1,1".
 std::string to_text(const SettingValue& value);
 
 struct NamedSetting {
@@ -44,7 +43,7 @@ struct UnknownSetting : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-// Changes one setting. A number may also come as text ("1e-8"), a basis as zeros and ones ("0110"). Throws
+// Changes one setting. Numbers and lists may also come as text, "1e-8" and "0,1,1". Throws
 // std::invalid_argument, naming the setting, for a value of another kind; the range is left to `validate`.
 void set_by_name(LcpSettings& settings, std::string_view name, const SettingValue& value);
 
