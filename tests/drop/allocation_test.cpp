@@ -1,4 +1,4 @@
-// A step takes no memory from the heap.
+// Steps and solvers take no memory from the heap.
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "tumble/drop/drop.hpp"
+#include "tumble/lcp/contact_system.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace {
 std::atomic<long> num_allocations{0};
@@ -44,6 +46,24 @@ TEST(Allocations, ATrajectoryMakesTwo) {  // q and v
   const Trajectory trajectory = simulate({0.0, 0.2, 0.5}, {1.0, -2.0, 3.0}, {.columns = 1000});
   EXPECT_EQ(num_allocations, before + 2);
   EXPECT_EQ(trajectory.columns, 1000);
+}
+
+TEST(Allocations, ASolverWithAWarmWorkspaceMakesNone) {
+  // Two contacts of a box, and a problem without contacts.
+  const BodyContact left{-1, 0, {}, {0.0, 1.0, -0.5}, {}, {1.0, 0.0, 0.5}, 0.3, 0.0};
+  const BodyContact right{-1, 0, {}, {0.0, 1.0, 0.5}, {}, {1.0, 0.0, 0.5}, 0.3, 0.0};
+  const std::vector<LcpProblem> problems = {as_lcp({{{1.0, 1.0, 6.0}}, {{2.0, -1.0, 0.5}}, {left, right}}),
+                                            {{2, 1, 0, 1, 2, 1, 0, 1, 2}, {-1, 0.5, -1}, {}},
+                                            {{1, -1, -1, 1}, {-1, -1}, {}}};
+  const std::vector<LcpSettings> all = {MurtySettings{}, DantzigSettings{}, NewtonSettings{}, PgsSettings{},
+                                        NlgsSettings{}};
+  LcpWorkspace workspace;
+  for (const LcpSettings& settings : all) {
+    for (const LcpProblem& problem : problems) solve_lcp(problem, settings, workspace);
+    const long before = num_allocations;
+    for (const LcpProblem& problem : problems) solve_lcp(problem, settings, workspace);
+    EXPECT_EQ(num_allocations, before) << to_string(workspace.result.rung);
+  }
 }
 
 }  // namespace

@@ -222,8 +222,13 @@ def solve(
 
         - "lemke": complementary pivoting on a tableau [1]_, about n pivots of n^2 operations. It finds a solution of
           every contact problem, and of every feasible one with a copositive-plus M; a "no" from it proves nothing.
-        - "lemke_lu": the same pivots, each on fresh LU factors: slower, without accumulated rounding.
+        - "lemke_lu": the same pivots, on LU factors of the basis: less rounding is carried on, and zeros are left out.
         - "enumerate": all 2^n bases, n <= 12; a "no" from it is a proof.
+        - "murty", "dantzig": principal pivots, for matrices without friction: P-matrices, and for "dantzig" semidefinite
+          ones, where its "no" is a proof. Each pivot factors its basis.
+        - "newton": semismooth Newton on min(w, z) = 0; a few iterations of n^3 / 3 operations for P-matrices.
+        - "pgs", "nlgs": sweeps over the unknowns, or over whole contacts with friction: cheap each, but the error only
+          shrinks by some factor. For many contacts with a good `start` and a loose accepted_residual.
     row_sizes : array_like, shape (n,), optional
         The typical size of each w_i, see `residual`. `contact_problem` gives them.
     start : Result or array_like, shape (n,), optional
@@ -340,7 +345,8 @@ def default_settings(method: str = "robust") -> dict[str, Any]:
     Returns
     -------
     dict
-        - max_pivots: 0 stands for a number that grows with n;
+        - max_pivots: 0 stands for a number that grows with n; max_iterations, max_sweeps: >= 1;
+        - relaxation: of each step of a sweep, in (0, 2);
         - pivot_tolerance: the smallest pivot, relative to the largest entry of its column, in [0, 1);
         - accepted_residual: "solved" means a residual no larger than this, in (0, 0.01];
         - precision: "double" (53 bits) or "quad" (113 bits, some 50 times slower);

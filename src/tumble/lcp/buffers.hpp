@@ -12,6 +12,12 @@
 
 namespace tumble {
 
+struct NewtonBuffers {
+  std::vector<double> z, w, phi;  // the iterate, in scaled numbers
+  std::vector<double> jacobian, gradient, step;
+  std::vector<double> next, next_w, next_phi;
+};
+
 struct LcpWorkspace::Buffers {
   ScaledProblem scaled;
   bool has_contacts = false;
@@ -25,6 +31,14 @@ struct LcpWorkspace::Buffers {
   std::vector<std::size_t> basic_rows;
   std::vector<double> right, solution, z_scaled;
   std::vector<double> z, w;  // of the candidate being judged
+
+  // What single methods need.
+  std::vector<double> w_scaled, w_terms;
+  std::vector<double> values, step;
+  std::vector<std::uint8_t> basis;  // of the candidate
+  NewtonBuffers newton;
+  std::vector<double> impulses;
+  std::vector<ContactMode> impulse_modes;
 };
 
 }  // namespace tumble

@@ -22,16 +22,18 @@ class DenseLu {
     return entries_;
   }
 
-  // False if a pivot is exactly 0: the matrix is singular.
-  bool factor() {
+  // False if the matrix is singular: a pivot is exactly 0, or not above `tolerance` times the largest entry that its
+  // column had at first.
+  bool factor(const Real& tolerance = Real(0)) {
     using std::abs;
     for (std::size_t i = 0; i < k_; ++i) order_[i] = i;
+    if (tolerance > Real(0)) find_smallest_pivots(tolerance);
     for (std::size_t c = 0; c < k_; ++c) {
       std::size_t best = c;
       for (std::size_t i = c + 1; i < k_; ++i) {
         if (abs(at(i, c)) > abs(at(best, c))) best = i;
       }
-      if (!(abs(at(best, c)) > Real(0))) return false;
+      if (!(abs(at(best, c)) > (tolerance > Real(0) ? smallest_pivots_[c] : Real(0)))) return false;
       if (best != c) {
         std::swap_ranges(row(best), row(best) + k_, row(c));
         std::swap(order_[best], order_[c]);
@@ -67,8 +69,20 @@ class DenseLu {
   Real& at(std::size_t i, std::size_t j) { return entries_[i * k_ + j]; }
   Real* row(std::size_t i) { return entries_.data() + i * k_; }
 
+  void find_smallest_pivots(const Real& tolerance) {
+    using std::abs;
+    smallest_pivots_.assign(k_, Real(0));
+    for (std::size_t i = 0; i < k_; ++i) {
+      for (std::size_t j = 0; j < k_; ++j) {
+        const Real size = tolerance * abs(at(i, j));
+        if (size > smallest_pivots_[j]) smallest_pivots_[j] = size;
+      }
+    }
+  }
+
   std::size_t k_ = 0;
   std::vector<Real> entries_;
+  std::vector<Real> smallest_pivots_;  // per column, if there is a tolerance
   std::vector<std::size_t> order_;
 };
 

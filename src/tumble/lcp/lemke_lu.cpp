@@ -127,22 +127,12 @@ LcpStatus walk(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWo
   const LcpStatus status = walk.run();
   result.pivots += walk.pivots;
   result.refactorisations += walk.factorisations;
-  const int z_begin = static_cast<int>(n);
-  const auto write_z = [&](const std::vector<Real>& of_slots, double sign) {
-    buffers.z_scaled.assign(n, 0.0);
-    for (std::size_t slot = 0; slot < of_slots.size(); ++slot) {
-      const int variable = basis.variable(static_cast<int>(slot));
-      if (variable < z_begin || variable == basis.z0()) continue;
-      buffers.z_scaled[static_cast<std::size_t>(variable - z_begin)] = sign * static_cast<double>(of_slots[slot]);
-    }
-  };
-  for (int i = 0; i < z_begin; ++i) result.basis[static_cast<std::size_t>(i)] = basis.is_basic(z_begin + i);
-  write_z(walk.x, 1.0);
+  for (std::size_t i = 0; i < n; ++i) result.basis[i] = basis.is_basic(static_cast<int>(n + i));
+  basis.z_part(walk.x, buffers.z_scaled);
   unscale(buffers.scaled, buffers.z_scaled, buffers.z);
   judge_candidate(problem, workspace);
   if (status == LcpStatus::ray_unproven) {
-    write_z(walk.y, -1.0);
-    if (walk.entering >= z_begin) buffers.z_scaled[static_cast<std::size_t>(walk.entering - z_begin)] = 1.0;
+    basis.z_direction(walk.entering, walk.y, buffers.z_scaled);
     unscale(buffers.scaled, buffers.z_scaled, result.certificate);
   }
   return status;

@@ -44,6 +44,15 @@ class LuBasis {
     }
   }
 
+  // Another constant than the problem's in row i.
+  void set_constant(int i, const Real& q_i) { q_[i] = q_i; }
+
+  // Another cover: z0 adds to w_i alone.
+  void set_cover_to_row(int i) {
+    cover_.assign(cover_.size(), Real(0));
+    cover_[i] = Real(1);
+  }
+
   static constexpr int k_none = -1;
   int z0() const { return 2 * n_; }
   int complement_of(int variable) const { return variable < n_ ? variable + n_ : variable - n_; }
@@ -103,6 +112,22 @@ class LuBasis {
     for_column(entering, [&](int row, const Real& entry) { right_[row] = entry; });
     solve(right_, y);
     return residual(right_, y);
+  }
+
+  // z of the values x of the slots.
+  void z_part(const std::vector<Real>& x, std::vector<double>& z) const {
+    z.assign(n_, 0.0);
+    for (int slot = 0; slot < static_cast<int>(x.size()); ++slot) {
+      const int variable = variable_[slot];
+      if (variable >= n_ && variable < z0()) z[variable - n_] = static_cast<double>(x[slot]);
+    }
+  }
+
+  // How z changes while `entering`, whose direction is y, grows by 1.
+  void z_direction(int entering, const std::vector<Real>& y, std::vector<double>& z) const {
+    z_part(y, z);
+    for (double& z_i : z) z_i = -z_i;
+    if (entering >= n_ && entering < z0()) z[entering - n_] = 1.0;
   }
 
   // Makes `entering` basic in the slot; y is its `direction`. Costs n operations in each solve to come.

@@ -22,10 +22,20 @@ const std::array k_methods = {
     LcpMethod{"robust", "a ladder of methods, each checked against M and q; the one to use", RobustSettings{}},
     LcpMethod{"lemke", "Lemke's pivots on a tableau; finds a solution if M is copositive-plus and w >= 0 is possible",
               LemkeSettings{}},
-    LcpMethod{"lemke_lu", "Lemke's pivots on fresh LU factors; slower, for nearly singular problems; can start warm",
+    LcpMethod{"lemke_lu",
+              "Lemke's pivots on LU factors of the basis; for nearly singular or large problems; can start warm",
               LemkeLuSettings{}},
     LcpMethod{"enumerate", "all 2^n bases, n <= 12; the first solution, or proof that there is none",
               EnumerateSettings{}},
+    LcpMethod{"murty", "least-index pivots, for comparison; guaranteed for P-matrices, in up to 2^n pivots",
+              MurtySettings{}},
+    LcpMethod{"dantzig", "principal pivots, row after row; for P- and semidefinite M a solution or a proof of none",
+              DantzigSettings{}},
+    LcpMethod{"newton", "semismooth Newton on min(w, z) = 0, for comparison; guaranteed for P-matrices",
+              NewtonSettings{}},
+    LcpMethod{"pgs", "projected Gauss-Seidel, for teaching; for positive definite M, not for friction", PgsSettings{}},
+    LcpMethod{"nlgs", "block Gauss-Seidel, each contact solved exactly; many contacts, loose tolerance, start from z",
+              NlgsSettings{}},
 };
 
 // Calls visit(name, field) for every field that these settings have.

@@ -1,6 +1,7 @@
 // Checks of settings: one message for one mistake. Not a public header.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -24,6 +25,20 @@ inline void require_accepted_residual(double value) {
 inline void require_start_basis(const std::vector<std::uint8_t>& basis, std::size_t n) {
   if (basis.empty() || basis.size() == n) return;
   throw std::invalid_argument(fmt::format("start_basis: must be empty or have {} entries, got {}", n, basis.size()));
+}
+
+inline void require_start_z(const std::vector<double>& z, std::size_t n) {
+  if (!z.empty() && z.size() != n) {
+    throw std::invalid_argument(fmt::format("start_z: must be empty or have {} entries, got {}", n, z.size()));
+  }
+}
+
+// Each entry finite and >= 0.
+inline void require_nonnegative(const std::vector<double>& z, const char* field) {
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (std::isfinite(z[i]) && z[i] >= 0.0) continue;
+    throw std::invalid_argument(fmt::format("{}[{}]: must be finite and >= 0, got {}", field, i, z[i]));
+  }
 }
 
 }  // namespace tumble

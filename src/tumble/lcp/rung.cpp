@@ -26,6 +26,8 @@ void start(const LcpProblem& problem, LcpWorkspace& workspace) {
   result.status = LcpStatus::numerical;
   result.z.clear();
   result.w.clear();
+  result.z.reserve(problem.size());  // they change places with those of candidates
+  result.w.reserve(problem.size());
   result.residual = std::numeric_limits<double>::infinity();
   result.parts = {result.residual, result.residual, result.residual};
   result.pivots = 0;
@@ -62,7 +64,7 @@ void judge_candidate(const LcpProblem& problem, LcpWorkspace& workspace) {
   std::swap(result.w, buffers.w);
 }
 
-bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& buffers) {
+bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& buffers, double tolerance) {
   const ScaledProblem& problem = buffers.scaled;
   buffers.z_scaled.assign(problem.size(), 0.0);
   std::vector<std::size_t>& rows = buffers.basic_rows;
@@ -78,7 +80,7 @@ bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& 
     for (std::size_t j = 0; j < k; ++j) entries[i * k + j] = problem(rows[i], rows[j]);
     buffers.right[i] = -problem.q[rows[i]];
   }
-  if (!buffers.lu.factor()) return false;
+  if (!buffers.lu.factor(tolerance)) return false;
   buffers.lu.solve(buffers.right.data(), buffers.solution.data());
   for (std::size_t i = 0; i < k; ++i) buffers.z_scaled[rows[i]] = buffers.solution[i];
   return true;

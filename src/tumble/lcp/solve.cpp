@@ -28,6 +28,28 @@ void run(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspac
   solve_prepared(problem, settings, workspace, run_lemke_lu);
 }
 
+void run(const LcpProblem& problem, const MurtySettings& settings, LcpWorkspace& workspace) {
+  solve_prepared(problem, settings, workspace, run_murty);
+}
+
+void run(const LcpProblem& problem, const DantzigSettings& settings, LcpWorkspace& workspace) {
+  solve_prepared(problem, settings, workspace, run_dantzig);
+}
+
+void run(const LcpProblem& problem, const NewtonSettings& settings, LcpWorkspace& workspace) {
+  solve_prepared(problem, settings, workspace, run_newton);
+}
+
+void run(const LcpProblem& problem, const PgsSettings& settings, LcpWorkspace& workspace) {
+  require_start_z(settings.start_z, problem.size());
+  solve_unscaled(problem, settings, workspace, run_pgs);
+}
+
+void run(const LcpProblem& problem, const NlgsSettings& settings, LcpWorkspace& workspace) {
+  require_start_z(settings.start_z, problem.size());
+  solve_unscaled(problem, settings, workspace, run_nlgs);
+}
+
 }  // namespace
 
 void validate(const LcpSettings& settings) {
