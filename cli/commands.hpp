@@ -48,10 +48,12 @@ struct RenderOptions {
 int run_render(const RenderOptions& options);
 
 struct LcpOptions {
-  std::string input;  // "-" is standard input
-  std::string method = "lemke";
-  bool all = false;
-  bool exact = false;
+  std::vector<std::string> files;     // "-" is standard input
+  std::string method;                 // empty: the one that fits the other options
+  std::vector<std::string> settings;  // NAME=VALUE
+  bool all = false;                   // every solution
+  bool exact = false;                 // fractions
+  bool trace = false;                 // every pivot
   ReportOptions report;
 };
 int run_lcp(const LcpOptions& options);

@@ -1,37 +1,124 @@
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+
 #include "commands.hpp"
-#include "report.hpp"
+#include "lcp_report.hpp"
+#include "lcp_trace.hpp"
 #include <fmt/format.h>
 
+#include "tumble/lcp/methods.hpp"
 #include "tumble/lcp/problem_text.hpp"
-#include "tumble/lcp/solve.hpp"
 #include "tumble/output/file.hpp"
 
 namespace tumble::cli {
+namespace {
+
+// --all and --trace are about one method each.
+LcpSettings chosen_settings(const LcpOptions& options) {
+  const char* needed = options.all ? "enumerate" : options.trace ? "lemke" : "";
+  const std::string& method = options.method;
+  if (*needed != '\0' && !method.empty() && method != needed) {
+    throw std::invalid_argument(
+        fmt::format("--{}: belongs to the method {}, got --method {}", options.all ? "all" : "trace", needed, method));
+  }
+  LcpSettings settings = lcp_method(!method.empty() ? method : *needed != '\0' ? needed : "robust").defaults;
+  for (const std::string& word : options.settings) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) {
+      throw std::invalid_argument(fmt::format("--set: must be NAME=VALUE, got '{}'", word));
+    }
+    set_by_name(settings, word.substr(0, equals), word.substr(equals + 1));
+  }
+  validate(settings);
+  return settings;
+}
+
+std::string shown_name(const std::string& file) { return file == "-" ? "standard input" : file; }
+
+std::string read_text(const std::string& file) {
+  constexpr std::size_t max_bytes = 200'000'000;  // the largest problem that is read, at 50 bytes a number
+  return output::read_file(file == "-" ? "/dev/stdin" : file, max_bytes);
+}
+
+LcpProblem read_problem(const std::string& file) { return parse_lcp(read_text(file), shown_name(file)); }
+
+int run_exact(const LcpOptions& options) {
+  if (options.files.size() > 1) {
+    throw std::invalid_argument(fmt::format("--exact: takes one file, got {}", options.files.size()));
+  }
+  return run_lcp_exact(read_text(options.files.front()), shown_name(options.files.front()), options);
+}
+
+LcpReport solve(const std::string& file, const LcpSettings& settings, bool all) {
+  const LcpProblem problem = read_problem(file);
+  LcpReport report{shown_name(file), problem.size(), all, {}, {}};
+  if (all) report.results = enumerate_solutions(problem, std::get<EnumerateSettings>(settings));
+  // One solution is asked for, or there is none and its status says why.
+  if (report.results.empty()) report.results.push_back(solve_lcp(problem, settings));
+  return report;
+}
+
+int exit_code(const LcpReport& report) {
+  const LcpStatus status = status_of(report);
+  return status == LcpStatus::solved ? k_done : status == LcpStatus::bad_input ? k_bad_input : k_numerical_failure;
+}
+
+int end_of_one(const LcpReport& report) {
+  if (status_of(report) == LcpStatus::solved) return k_done;
+  return report_failure(fmt::format("no solution found: status {}", to_string(status_of(report))), exit_code(report));
+}
+
+int run_one(const LcpOptions& options, const LcpSettings& settings) {
+  const LcpReport report = solve(options.files.front(), settings, options.all);
+  if (!options.report.quiet) fmt::print("{}", options.report.json ? lcp_json(report) : lcp_text(report));
+  return end_of_one(report);
+}
+
+int run_trace(const LcpOptions& options, const LemkeSettings& settings) {
+  if (options.files.size() > 1) {
+    throw std::invalid_argument(fmt::format("--trace: takes one file, got {}", options.files.size()));
+  }
+  const std::string& file = options.files.front();
+  const LcpProblem problem = read_problem(file);
+  const std::size_t n = problem.size();
+  if (n > k_max_trace_size) {
+    throw std::invalid_argument(
+        fmt::format("--trace: takes problems of at most {} unknowns, got {}", k_max_trace_size, n));
+  }
+  const LemkeTrace trace = trace_lemke(problem, settings);
+  const LcpReport report{shown_name(file), n, false, {trace.result}, {}};
+  if (!options.report.quiet) fmt::print("{}\n{}", trace_text(trace, n, settings), lcp_text(report));
+  return end_of_one(report);
+}
+
+// A file that cannot be solved does not keep the others from it.
+int run_many(const LcpOptions& options, const LcpSettings& settings) {
+  std::vector<LcpReport> reports;
+  int worst = k_done;
+  for (const std::string& file : options.files) {
+    try {
+      reports.push_back(solve(file, settings, options.all));
+    } catch (const std::exception& error) {
+      report_failure(error.what(), k_bad_input);
+      reports.push_back({shown_name(file), 0, options.all, {}, error.what()});
+    }
+    worst = std::max(worst, exit_code(reports.back()));
+  }
+  if (!options.report.quiet) fmt::print("{}", options.report.json ? lcp_json(reports) : lcp_text(reports));
+  if (worst == k_done) return k_done;
+  const auto num_failed = std::count_if(reports.begin(), reports.end(),
+                                        [](const LcpReport& report) { return exit_code(report) != k_done; });
+  return report_failure(fmt::format("{} of {} files not solved", num_failed, reports.size()), worst);
+}
+
+}  // namespace
 
 int run_lcp(const LcpOptions& options) {
-  const bool is_stdin = options.input == "-";
-  constexpr std::size_t max_bytes = 200'000'000;  // the largest problem that is read, at 50 bytes a number
-  const std::string text = output::read_file(is_stdin ? "/dev/stdin" : options.input, max_bytes);
-  const std::string name = is_stdin ? "standard input" : options.input;
-  if (options.exact) return run_lcp_exact(text, name, options);
-  const LcpProblem problem = parse_lcp(text, name);
-  std::vector<LcpResult> results;
-  if (options.all) {
-    results = enumerate_solutions(problem);
-  }
-  if (results.empty()) {  // one solution is asked for, or there is none and its status says why
-    const LcpSettings settings =
-        options.all || options.method == "enumerate" ? LcpSettings(EnumerateSettings{}) : LemkeSettings{};
-    results.push_back(solve_lcp(problem, settings));
-  }
-  if (!options.report.quiet) {
-    fmt::print("{}",
-               options.report.json ? lcp_json(problem, results, options.all) : lcp_text(problem, results, options.all));
-  }
-  const bool is_solved = results.front().status == LcpStatus::solved;
-  if (is_solved) return k_done;
-  const std::string_view status = to_string(results.front().status);
-  return report_failure(fmt::format("no solution found: status {}", status), k_numerical_failure);
+  if (options.exact) return run_exact(options);
+  const LcpSettings settings = chosen_settings(options);
+  if (options.trace) return run_trace(options, std::get<LemkeSettings>(settings));
+  return options.files.size() == 1 ? run_one(options, settings) : run_many(options, settings);
 }
 
 }  // namespace tumble::cli

@@ -13,6 +13,9 @@
 #include "text.hpp"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tumble/lcp/methods.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -31,7 +34,8 @@ const std::map<std::string, std::string> k_option_of_field = {{"l", "--side"},
                                                               {"width", "--width"},
                                                               {"height", "--height"},
                                                               {"speed", "--speed"},
-                                                              {"format", "--format"}};
+                                                              {"format", "--format"},
+                                                              {"method", "--method"}};
 
 std::string with_option_name(const std::string& message) {
   if (message.ends_with("already exists")) return message + "; --force replaces it";
@@ -121,25 +125,42 @@ void add_render(CLI::App& program, RenderOptions& options, std::function<int()>&
   app.callback([&] { command = [&] { return run_render(options); }; });
 }
 
+std::string methods_text() {
+  std::string text = "Methods, and what --set takes with its default:\n";
+  for (const LcpMethod& method : lcp_methods()) {
+    text += fmt::format("  {:<10} {}\n", method.name, method.summary);
+    std::vector<std::string> settings;
+    for (const auto& [name, value] : named_settings(method.defaults)) {
+      settings.push_back(fmt::format("{}={}", name, to_text(value)));
+    }
+    text += fmt::format("  {:<10} {}\n", "", fmt::join(settings, " "));
+  }
+  return text;
+}
+
 void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& command) {
   CLI::App& app =
-      *program.add_subcommand("lcp", "Solve a linear complementarity problem: w = M z + q >= 0, z >= 0, w.z = 0");
-  app.add_option("file", options.input,
+      *program.add_subcommand("lcp", "Solve linear complementarity problems: w = M z + q >= 0, z >= 0, w.z = 0");
+  app.add_option("files", options.files,
                  "Text: a line 'M', the rows of M, a line 'q', the entries of q; numbers as 1e-3 or 1/3, comments "
-                 "behind '#'. '-' reads standard input")
+                 "behind '#'. '-' reads standard input. Several files give a table")
       ->type_name("FILE")
       ->required();
-  app.add_option("--method", options.method, "lemke (any n) or enumerate (n <= 12, proves that there is no solution)")
-      ->check(CLI::IsMember({"lemke", "enumerate"}))
-      ->type_name("NAME")
-      ->capture_default_str();
-  app.add_flag("--all", options.all, "Every vertex solution, n <= 12");
-  app.add_flag(
-         "--exact", options.exact,
-         "Exact arithmetic, where 0.1 and 1/3 mean just that: fractions and proofs, n <= 40; with --all also rays "
-         "and faces, n <= 12")
-      ->excludes("--method");
+  app.add_option("--method", options.method, "One of those below")->type_name("NAME")->default_str("robust");
+  app.add_option("--set", options.settings, "A setting of the method; may be given several times")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::Option* all = app.add_flag("--all", options.all, "Every vertex solution, by enumeration, n <= 12");
+  CLI::Option* exact = app.add_flag(
+      "--exact", options.exact,
+      "Exact arithmetic, where 0.1 and 1/3 mean just that: fractions and proofs, n <= 40; with --all also rays and "
+      "faces, n <= 12");
+  exact->excludes("--method")->excludes("--set");
+  CLI::Option* trace = app.add_flag("--trace", options.trace, "Show every pivot of Lemke's method, n <= 8");
   add_report_options(app, options.report);
+  trace->excludes(all)->excludes(exact)->excludes(app.get_option("--json"));
+  app.footer(methods_text());
   app.callback([&] { command = [&] { return run_lcp(options); }; });
 }
 

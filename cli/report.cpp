@@ -68,17 +68,6 @@ std::string impact_table(const drop::Record& record) {
 
 Json json_of(const Vector3& values) { return Json::array({values[0], values[1], values[2]}); }
 
-Json json_of(const LcpResult& result) {
-  std::vector<bool> basis(result.basis.begin(), result.basis.end());
-  return {{"status", to_string(result.status)}, {"z", result.z},           {"w", result.w},
-          {"residual", result.residual},        {"pivots", result.pivots}, {"basis", basis}};
-}
-
-// All results of an enumeration are solutions, unless the only one says that there is none.
-std::size_t num_solved(const std::vector<LcpResult>& results) {
-  return results.front().status == LcpStatus::solved ? results.size() : 0;
-}
-
 }  // namespace
 
 std::string drop_text(const drop::Record& record, const std::vector<std::string>& files) {
@@ -131,32 +120,6 @@ std::string drop_json(const drop::Record& record, const std::vector<std::string>
                          {"q", json_of(trajectory.q_at(last))},
                          {"v", json_of(trajectory.v_at(last))}}},
                        {"files", files}};
-  return report.dump(2) + "\n";
-}
-
-std::string lcp_text(const LcpProblem& problem, const std::vector<LcpResult>& results, bool all) {
-  std::string text;
-  if (all) {
-    const std::size_t count = num_solved(results);
-    text = fmt::format("{} vertex solution{} of the LCP with n = {}\n", count, count == 1 ? "" : "s", problem.size());
-  }
-  for (const LcpResult& result : results) {
-    std::vector<std::size_t> basic;
-    for (std::size_t i = 0; i < result.basis.size(); ++i) {
-      if (result.basis[i]) basic.push_back(i);
-    }
-    text += fmt::format("{}status    {}\nz         {}\nw         {}\nresidual  {:.3g}\npivots    {}\nbasic z   {}\n",
-                        text.empty() ? "" : "\n", to_string(result.status), fmt::join(result.z, " "),
-                        fmt::join(result.w, " "), result.residual, result.pivots, fmt::join(basic, " "));
-  }
-  return text;
-}
-
-std::string lcp_json(const LcpProblem& problem, const std::vector<LcpResult>& results, bool all) {
-  if (!all) return json_of(results.front()).dump(2) + "\n";
-  Json solutions = Json::array();
-  for (std::size_t i = 0; i < num_solved(results); ++i) solutions.push_back(json_of(results[i]));
-  const Json report = {{"n", problem.size()}, {"status", to_string(results.front().status)}, {"solutions", solutions}};
   return report.dump(2) + "\n";
 }
 

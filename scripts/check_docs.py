@@ -4,7 +4,8 @@
 - Repository paths in backticks in ARCHITECTURE.md, CONTRIBUTING.md and README.md exist.
 - Every relative link of every *.md resolves.
 - In README.md and docs/**/*.md every ```python block runs (as doctest if it starts with ">>>"), every ```cpp block
-  with a main() compiles and runs, every ```sh block behind `<!-- run -->` runs, each in an empty folder.
+  with a main() compiles and runs, every ```sh block behind `<!-- run -->` runs, each in an empty folder. A block behind
+  `<!-- output -->` is what the block before it prints.
 
 Prints one line "file:line: what is wrong" for each fault and exits with 1 if there is one.
 """
@@ -32,12 +33,12 @@ SECONDS = 120  # a block that takes longer has failed
 
 @dataclass
 class Block:
-    """A fenced block; `line` is that of its fence, `marked` says that `<!-- run -->` stands before it."""
+    """A fenced block; `line` is that of its fence, `mark` the comment before it, "run" or "output"."""
 
     language: str
     text: str
     line: int
-    marked: bool
+    mark: str
 
 
 def parse(file: Path) -> tuple[list[tuple[int, str]], list[Block]]:
@@ -55,7 +56,7 @@ def parse(file: Path) -> tuple[list[tuple[int, str]], list[Block]]:
             else:
                 inside.text += line + "\n"
         elif fence:
-            inside = Block(line.strip()[3:].strip(), "", number, last == "<!-- run -->")
+            inside = Block(line.strip()[3:].strip(), "", number, last.removeprefix("<!-- ").removesuffix(" -->"))
         else:
             prose.append((number, line))
         last = line.strip() or last
@@ -94,26 +95,28 @@ def commands_of(block: Block, folder: Path, build: Path) -> list[list[str]]:
         (folder / "block.cpp").write_text(block.text, encoding="utf-8")
         library = str(build / "src" / "tumble" / "libtumble.a")
         return [["g++", "-std=c++20", f"-I{ROOT / 'src'}", "block.cpp", library, "-o", "block"], ["./block"]]
-    if block.language == "sh" and block.marked:
+    if block.language == "sh" and block.mark == "run":
         return [["sh", "-euc", block.text]]
     return []
 
 
-def failure_of(block: Block, build: Path) -> str | None:
-    """Runs the block; what went wrong, or None."""
+def run(block: Block, build: Path) -> tuple[str | None, str]:
+    """Runs the block; what went wrong, or None, and what the block printed."""
     programs = os.pathsep.join([str(build / "bin"), str(Path(sys.executable).parent), os.environ["PATH"]])
     environment = {**os.environ, "PYTHONPATH": str(build / "python"), "MPLBACKEND": "Agg", "PATH": programs}
+    printed = ""
     with tempfile.TemporaryDirectory() as folder:
         for command in commands_of(block, Path(folder), build):
             try:
                 done = subprocess.run(command, cwd=folder, env=environment, timeout=SECONDS, text=True,
                                       stdin=subprocess.DEVNULL, capture_output=True)
             except subprocess.TimeoutExpired:
-                return f"the {block.language} block takes longer than {SECONDS} s"
+                return f"the {block.language} block takes longer than {SECONDS} s", printed
+            printed = done.stdout
             if done.returncode != 0:
                 said = (done.stdout + done.stderr).rstrip()
-                return f"the {block.language} block fails with code {done.returncode}:\n{said}"
-    return None
+                return f"the {block.language} block fails with code {done.returncode}:\n{said}", printed
+    return None, printed
 
 
 def faults(build: Path) -> Iterator[str]:
@@ -130,8 +133,13 @@ def faults(build: Path) -> Iterator[str]:
                         for target in LINK.findall(text) if broken_link(file, target))
         if str(name) != "README.md" and name.parts[0] != "docs":
             continue
+        printed = ""
         for block in blocks:
-            failure = failure_of(block, build)
+            if block.mark == "output":
+                if block.text != printed:
+                    yield f"{name}:{block.line}: the block before it prints\n{printed.rstrip()}"
+                continue
+            failure, printed = run(block, build)
             if failure:
                 yield f"{name}:{block.line}: {failure}"
 

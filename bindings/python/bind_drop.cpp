@@ -16,21 +16,6 @@ namespace {
 using namespace py::literals;
 using drop::Parameters;
 
-std::string short_repr(const py::object& object) {
-  const std::string text = py::repr(object);
-  return text.size() <= 40 ? text : text.substr(0, 40) + "...";
-}
-
-// One line that names the field, where pybind11's own message for a wrong type fills a screen.
-double as_number(const py::object& object, const char* field) {
-  const double value = PyFloat_AsDouble(object.ptr());
-  if (value == -1.0 && PyErr_Occurred()) {
-    PyErr_Clear();
-    throw std::invalid_argument(fmt::format("{}: must be a number, got {}", field, short_repr(object)));
-  }
-  return value;
-}
-
 int as_count(const py::object& object, const char* field) {
   const long value = PyLong_Check(object.ptr()) || PyIndex_Check(object.ptr()) ? PyLong_AsLong(object.ptr()) : -1;
   const bool is_count = !PyErr_Occurred() && value >= 0 && value <= std::numeric_limits<int>::max();

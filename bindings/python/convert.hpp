@@ -21,6 +21,12 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 // `shape`, where -1 stands for any length.
 Array as_array(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape);
 
+// One line that names the field, where pybind11's own message for a wrong type fills a screen.
+double as_number(const py::handle& object, const char* field);
+
+// For messages: repr, cut off after 40 characters.
+std::string short_repr(const py::handle& object);
+
 Vector3 as_vector3(const py::handle& object, const char* name);
 std::vector<double> as_vector(const Array& array);
 
@@ -28,6 +34,7 @@ py::array_t<double> to_numpy(std::span<const double> values);
 py::array_t<double> to_numpy(std::span<const double> values, py::ssize_t rows, py::ssize_t columns);
 
 void bind_lcp(py::module_& module);
+void bind_contacts(py::module_& module);
 void bind_drop(py::module_& module);
 
 }  // namespace tumble::python

@@ -54,6 +54,20 @@ Array as_array(const py::handle& object, const char* name, const std::vector<py:
   return array;
 }
 
+std::string short_repr(const py::handle& object) {
+  const std::string text = py::repr(object);
+  return text.size() <= 40 ? text : text.substr(0, 40) + "...";
+}
+
+double as_number(const py::handle& object, const char* field) {
+  const double value = PyFloat_AsDouble(object.ptr());
+  if (value == -1.0 && PyErr_Occurred()) {
+    PyErr_Clear();
+    throw std::invalid_argument(fmt::format("{}: must be a number, got {}", field, short_repr(object)));
+  }
+  return value;
+}
+
 Vector3 as_vector3(const py::handle& object, const char* name) {
   const Array array = as_array(object, name, {3});
   const double* data = array.data();
@@ -80,5 +94,6 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled part of tumble; see tumble.drop and tumble.lcp.";
   module.attr("__version__") = TUMBLE_VERSION;
   tumble::python::bind_lcp(module);
+  tumble::python::bind_contacts(module);
   tumble::python::bind_drop(module);
 }

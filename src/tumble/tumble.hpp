@@ -8,6 +8,8 @@
 #include "tumble/lcp/enumerate.hpp"
 #include "tumble/lcp/exact.hpp"
 #include "tumble/lcp/lemke.hpp"
+#include "tumble/lcp/lemke_lu.hpp"
+#include "tumble/lcp/methods.hpp"
 #include "tumble/lcp/murty.hpp"
 #include "tumble/lcp/newton.hpp"
 #include "tumble/lcp/nlgs.hpp"

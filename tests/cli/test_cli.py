@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 import pytest
 from PIL import Image
-from tumble import drop
+from tumble import drop, lcp
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("TUMBLE_BUILD", ROOT / "build")).resolve() / "bin/tumble"
@@ -235,9 +235,126 @@ def test_a_run_beyond_double_is_a_numerical_failure(tmp_path: Path) -> None:
 def test_lcp_solves_text(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("# example\nM\n2 1\n1 2\nq\n-5 -6\n")
     text = succeed("lcp", "a.txt", cwd=tmp_path)
-    assert "status    solved" in text and "z         1.333333333333333" in text and "pivots" in text and "residual" in text
-    report = json.loads(succeed("lcp", "-", "--json", "--method", "enumerate", cwd=tmp_path, stdin="M\n1\nq\n-1/4\n"))
-    assert report["z"] == [0.25] and report["w"] == [0.0] and report["status"] == "solved"
+    assert "status            solved" in text and "z                 1.333333333333333" in text and "basis             z1 z2" in text
+    for word in ("w  ", "residual ", "w >= 0: ", "z >= 0: ", "w.z = 0: ", "pivots ", "refactorisations ", "rung "):
+        assert word in text
+
+
+@pytest.mark.parametrize("method", lcp.METHODS)
+def test_lcp_json_is_the_result_of_the_library(tmp_path: Path, method: str) -> None:
+    text = "M\n2 1\n1 2\nq\n-5 -6\n"
+    report = json.loads(succeed("lcp", "-", "--json", "--method", method, cwd=tmp_path, stdin=text))
+    result = lcp.solve(*lcp.parse(text), method)
+    assert report == {
+        **vars(result),
+        "z": list(result.z),
+        "w": list(result.w),
+        "parts": vars(result.parts),
+        "basis": list(result.basis),
+    }
+    assert json.loads(succeed("lcp", "-", "--json", cwd=tmp_path, stdin=text))["status"] == "solved"
+
+
+def test_lcp_help_lists_every_method_and_setting(tmp_path: Path) -> None:
+    text = succeed("lcp", "--help", cwd=tmp_path)
+    for method, summary in lcp.METHODS.items():
+        assert f"  {method:<10} {summary}\n" in text
+        assert all(f"{name}=" in text for name in lcp.default_settings(method))
+
+
+def test_lcp_takes_settings_of_the_method(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("M\n2 1\n1 2\nq\n-5 -6\n")
+    run = tumble("lcp", "a.txt", "--method", "lemke", "--set", "max_pivots=1", "--set", "pivot_tolerance=1e-6", cwd=tmp_path)
+    assert run.returncode == 3 and "iteration_limit" in run.stdout
+    text = succeed("lcp", "a.txt", "--method", "lemke_lu", "--set", "precision=quad", "--set", "start_basis=1,1", cwd=tmp_path)
+    assert "lemke_quad" in text and "pivots            0" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--method", "simplex"], "--method: must be one of robust, lemke, "),
+        (["--set", "max_pivots=3"], "max_pivots: is not a setting of this method, which has accepted_residual, start_basis"),
+        (["--method", "lemke", "--set", "max_pivots=x"], "max_pivots: must be a number, got 'x'"),
+        (["--method", "lemke", "--set", "max_pivots=-1"], "max_pivots: must be >= 0, got -1"),
+        (["--set", "accepted_residual"], "--set: must be NAME=VALUE, got 'accepted_residual'"),
+        (["--set", "start_basis=0,2"], "start_basis: must be zeros and ones, got 2"),
+        (["--set", "start_basis=1"], "start_basis: must be empty or have 2 entries, got 1"),
+        (["--all", "--method", "lemke"], "--all: belongs to the method enumerate, got --method lemke"),
+        (["--trace", "--method", "robust"], "--trace: belongs to the method lemke, got --method robust"),
+        (["--trace", "--all"], "--trace"),
+        (["--trace", "--json"], "--trace"),
+        (["--trace", "a.txt"], "--trace: takes one file, got 2"),
+    ],
+)
+def test_lcp_refuses_bad_options(tmp_path: Path, words: list[str], message: str) -> None:
+    (tmp_path / "a.txt").write_text("M\n2 1\n1 2\nq\n-5 -6\n")
+    assert message in refuse("lcp", "a.txt", *words, cwd=tmp_path)
+
+
+def test_lcp_of_several_files_is_a_table_and_the_worst_exit_code(tmp_path: Path) -> None:
+    (tmp_path / "good.txt").write_text("M\n2 1\n1 2\nq\n-5 -6\n")
+    (tmp_path / "none.txt").write_text("M\n-1\nq\n-1\n")
+    (tmp_path / "bad.txt").write_text("M\n1\n")
+    rows = succeed("lcp", "good.txt", "-", cwd=tmp_path, stdin="M\n1\nq\n1\n").splitlines()
+    assert rows[0].split() == ["file", "n", "status", "residual", "pivots", "rung"]
+    assert rows[1].split()[:3] == ["good.txt", "2", "solved"] and rows[2].startswith("standard input") and rows[2].split()[-1] == "none"
+    assert rows[3] == "2 of 2 solved"
+
+    run = tumble("lcp", "bad.txt", "good.txt", cwd=tmp_path)
+    assert run.returncode == 2 and "bad.txt:2:1" in run.stderr and "1 of 2 files not solved" in run.stderr
+    run = tumble("lcp", "none.txt", "bad.txt", "good.txt", cwd=tmp_path)
+    assert run.returncode == 3 and "1 of 3 solved" in run.stdout
+    assert [line.split()[0] for line in run.stdout.splitlines()[1:-1]] == ["none.txt", "bad.txt", "good.txt"]
+    run = tumble("lcp", "none.txt", "good.txt", "bad.txt", "--json", cwd=tmp_path)
+    reports = json.loads(run.stdout)
+    assert [report["file"] for report in reports] == ["none.txt", "good.txt", "bad.txt"]
+    assert [report["status"] for report in reports] == ["infeasible", "solved", "bad_input"]
+    run = tumble("lcp", "none.txt", "good.txt", "--all", cwd=tmp_path)
+    assert run.returncode == 3 and run.stdout.splitlines()[2].split()[-2:] == ["1", "enumerate"]
+    assert tumble("lcp", "none.txt", "good.txt", "--quiet", cwd=tmp_path).stdout == ""
+
+
+CONTACT = "M\n1 0 0 0\n0 1 -1 1\n0 -1 1 1\n1/2 -1 -1 0\nq\n-2 1 -1 0\n"
+
+
+def test_lcp_trace_shows_each_pivot(tmp_path: Path) -> None:
+    text = succeed("lcp", "-", "--trace", cwd=tmp_path, stdin=CONTACT)
+    assert "Start: all w are basic." in text and "status            solved" in text
+    pivots = [line for line in text.splitlines() if line.startswith("Pivot ")]
+    assert len(pivots) == json.loads(succeed("lcp", "-", "--json", "--method", "lemke", cwd=tmp_path, stdin=CONTACT))["pivots"]
+    leaving = None
+    for k, line in enumerate(pivots):
+        words = line.replace(",", " ").replace(".", " ").replace(":", " ").split()
+        assert words[:2] == ["Pivot", str(k + 1)] and words[3] == "enters"
+        assert words[2] == ("z0" if leaving is None else ("z" if leaving[0] == "w" else "w") + leaving[1:])
+        leaving = words[words.index("leaves") - 1]
+    assert leaving == "z0"
+    # The last tableau holds the solution in its column of values, and the basis is complementary.
+    values = {row.split()[0]: float(row.split()[-1]) for row in text.split("\n\n")[-3].splitlines()[2:]}
+    solution = [values.get(f"z{i}", 0.0) for i in range(1, 5)]
+    assert solution == [2, 0, 1, 0] and sorted(name[1] for name in values) == ["1", "2", "3", "4"]
+
+
+@pytest.mark.parametrize("n", range(1, 9))
+def test_lcp_trace_fits_on_a_line_and_ends_with_the_solution(tmp_path: Path, n: int) -> None:
+    random = np.random.default_rng(n)
+    root = random.standard_normal((n, n))
+    rows = [" ".join(map(repr, row.tolist())) for row in root @ root.T + 0.1 * np.eye(n)]
+    text = succeed("lcp", "-", "--trace", cwd=tmp_path, stdin="\n".join(["M", *rows, "q", *map(repr, (-random.random(n)).tolist())]) + "\n")
+    assert max(map(len, text.split("status")[0].splitlines())) <= 120
+    assert "z0 has left" in text and "nan" not in text
+
+
+def test_lcp_trace_of_other_ends(tmp_path: Path) -> None:
+    run = tumble("lcp", "-", "--trace", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
+    assert run.returncode == 3 and "z1 enters, the complement of w1. No row limits it: a ray" in run.stdout
+    assert "certificate " in run.stdout and "(direction of the ray)" in run.stdout
+    run = tumble("lcp", "-", "--trace", "--set", "max_pivots=2", cwd=tmp_path, stdin=CONTACT)
+    assert run.returncode == 3 and "Stopped at the allowed number of pivots." in run.stdout and "Pivot 3" not in run.stdout
+    assert "no pivot is needed" in succeed("lcp", "-", "--trace", cwd=tmp_path, stdin="M\n1\nq\n1\n")
+    nine = "M\n" + "\n".join(" ".join("1" if i == j else "0" for j in range(9)) for i in range(9)) + "\nq\n" + "-1 " * 9 + "\n"
+    assert "--trace: takes problems of at most 8 unknowns, got 9" in refuse("lcp", "-", "--trace", cwd=tmp_path, stdin=nine)
 
 
 def test_lcp_lists_all_solutions(tmp_path: Path) -> None:
@@ -248,6 +365,8 @@ def test_lcp_lists_all_solutions(tmp_path: Path) -> None:
 
 def test_lcp_without_solution_exits_with_3(tmp_path: Path) -> None:
     run = tumble("lcp", "-", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
+    assert run.returncode == 3 and "infeasible" in run.stdout and "(y: M'y <= 0, y >= 0, q'y < 0)" in run.stdout
+    run = tumble("lcp", "-", "--method", "lemke", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
     assert run.returncode == 3 and "ray_unproven" in run.stdout
     run = tumble("lcp", "-", "--method", "enumerate", cwd=tmp_path, stdin="M\n-1\nq\n-1\n")
     assert run.returncode == 3 and "no_solution_proved" in run.stdout

@@ -156,5 +156,44 @@ TEST(Lemke, ReportsNumbersBeyondDoubleAsAStatus) {
   EXPECT_FALSE(result.residual < 1.0);
 }
 
+// A tableau T holds the same equations as the first one, T_0, solved for the basic variables: T_0,B T = T_0.
+TEST(Lemke, TraceShowsEquivalentTableaus) {
+  test::Random random(8);
+  for (int i = 0; i < 100; ++i) {
+    const std::size_t n = 2 + static_cast<std::size_t>(i) % 5, width = 2 * n + 2;
+    const LcpProblem problem = random_positive_definite(random, n);
+    const LemkeTrace trace = trace_lemke(problem);
+    EXPECT_EQ(trace.result.z, lemke(problem).z);
+    ASSERT_EQ(static_cast<int>(trace.pivots.size()), trace.result.pivots);
+    ASSERT_EQ(trace.start.size(), n * width);
+    double cover = 0.0;
+    for (std::size_t row = 0; row < n; ++row) {
+      for (std::size_t j = 0; j < n; ++j) EXPECT_EQ(trace.start[row * width + n + j], -problem(row, j));
+      EXPECT_EQ(trace.start[row * width + width - 1], problem.q[row]);
+      cover = std::min(cover, trace.start[row * width + 2 * n]);
+    }
+    EXPECT_EQ(cover, -1.0);
+    for (const LemkePivot& pivot : trace.pivots) {
+      for (std::size_t row = 0; row < n; ++row) {
+        for (std::size_t j = 0; j < width; ++j) {
+          double sum = 0.0, size = 0.0;
+          for (std::size_t k = 0; k < n; ++k) {
+            const double term =
+                trace.start[row * width + static_cast<std::size_t>(pivot.basis[k])] * pivot.tableau[k * width + j];
+            sum += term;
+            size += std::abs(term);
+          }
+          // 1e-10: at most 10 pivots, each larger than 1e-8 of its column, on well-conditioned problems.
+          EXPECT_NEAR(sum, trace.start[row * width + j], 1e-10 * std::max(size, 1.0));
+        }
+      }
+    }
+    if (!trace.pivots.empty()) {
+      EXPECT_EQ(trace.pivots.front().entering, static_cast<int>(2 * n));
+      EXPECT_EQ(trace.pivots.back().leaving, static_cast<int>(2 * n));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tumble

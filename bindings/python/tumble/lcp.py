@@ -1,51 +1,50 @@
 """Linear complementarity problems: find z with w = M z + q >= 0, z >= 0, z . w = 0.
 
->>> import numpy as np
+In each pair (z_i, w_i) one number is zero. Which one is the whole difficulty: once it is known, the rest is linear. For
+a contact, z_i is an impulse and w_i a velocity: either the bodies press, or they separate.
+
 >>> from tumble import lcp
 >>> result = lcp.solve([[2.0, 1.0], [1.0, 2.0]], [-5.0, -6.0])
 >>> result.status, result.z
 ('solved', array([1.33333333, 2.33333333]))
+
+`solve` for one problem, `solve_batch` for many of one size, `solve_contacts` for bodies in contact, `all_solutions` for
+every solution of a small one. `METHODS` says what each method does. Theory: docs/theory/lcp.md.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tumble import _core
 
-__all__ = ["METHODS", "Residual", "Result", "all_solutions", "parse", "residual", "solve"]
+__all__ = [
+    "METHODS",
+    "BatchResult",
+    "ContactResult",
+    "Residual",
+    "Result",
+    "all_solutions",
+    "contact_problem",
+    "default_settings",
+    "parse",
+    "residual",
+    "solve",
+    "solve_batch",
+    "solve_contacts",
+]
 
-METHODS = ("lemke", "enumerate")
+METHODS: Mapping[str, str] = MappingProxyType(_core.methods())
+"""The methods by name, each with one line on what it does and when it can be relied on."""
 
-
-@dataclass(frozen=True)
-class Result:
-    """What a solver returns.
-
-    Attributes
-    ----------
-    status : str
-        "solved"; "no_solution_proved" (every complementary basis was tried and failed clearly); "ray_unproven" (Lemke ended on a ray: none
-        found, none excluded); "iteration_limit"; "numerical" (the residual is above the accepted bound).
-    z, w : ndarray, shape (n,)
-        The solution and M z + q; if the status is not "solved", the best candidate met, or 0.
-    residual : float
-        How far z is from solving the problem, without unit: see `residual`. Recomputed from M and q.
-    pivots : int
-        Pivots made, or bases tried.
-    basis : ndarray of bool, shape (n,)
-        True where z_i is basic, so that w_i = 0; elsewhere z_i = 0.
-    """
-
-    status: str
-    z: NDArray[np.float64]
-    w: NDArray[np.float64]
-    residual: float
-    pivots: int
-    basis: NDArray[np.bool_]
+_STATUSES = np.array(_core.STATUSES)
+_RUNGS = np.array(_core.RUNGS)
 
 
 @dataclass(frozen=True)
@@ -62,19 +61,181 @@ class Residual:
         return max(self.negative_w, self.negative_z, self.complementarity)
 
 
-def solve(M: ArrayLike, q: ArrayLike, method: str = "lemke", **settings: float) -> Result:
+@dataclass(frozen=True)
+class Result:
+    """What a solver returns.
+
+    Attributes
+    ----------
+    status : str
+        - "solved": z is a solution, up to the accepted residual;
+        - "infeasible": no z >= 0 has M z + q >= 0, and `certificate` is the proof;
+        - "no_solution_proved": every complementary basis was tried and failed clearly;
+        - "ray_unproven": the pivots ended on a ray; no solution was found, but none is excluded;
+        - "iteration_limit": the allowed number of pivots or sweeps was used up;
+        - "numerical": the residual is above the accepted bound.
+    z, w : ndarray, shape (n,)
+        The solution and M z + q; if the status is not "solved", the best candidate met, or 0.
+    residual : float
+        How far z is from solving the problem, without unit: see `residual`. Computed from M and q, not from the tables
+        of the method.
+    parts : Residual
+        The three parts of it; `residual` is the largest.
+    pivots : int
+        Pivots made, bases tried, or sweeps.
+    refactorisations : int
+        LU factorisations of a basis.
+    rung : str
+        The method that found z, or the last one tried. "robust" tries several; "none" is z = 0, where q >= 0.
+    basis : ndarray of bool, shape (n,)
+        True where z_i is basic, so that w_i = 0; elsewhere z_i = 0.
+    certificate : ndarray, shape (n,), or None
+        For "infeasible": y with M' y <= 0, y >= 0, q . y < 0. For "ray_unproven": the direction of the ray in z.
+    """
+
+    status: str
+    z: NDArray[np.float64]
+    w: NDArray[np.float64]
+    residual: float
+    parts: Residual
+    pivots: int
+    refactorisations: int
+    rung: str
+    basis: NDArray[np.bool_]
+    certificate: NDArray[np.float64] | None
+
+
+@dataclass(frozen=True)
+class BatchResult:
+    """The results of N problems of size n; ``batch[i]`` is the `Result` of problem i.
+
+    Attributes
+    ----------
+    status, rung : ndarray of str, shape (N,)
+        As in `Result`. "bad_input" marks a problem with NaN or infinite entries; its z and w are 0, its residual is inf.
+    z, w, certificate : ndarray, shape (N, n)
+        A problem without a certificate has a row of 0.
+    residual : ndarray, shape (N,)
+    parts : ndarray, shape (N, 3)
+        negative_w, negative_z, complementarity.
+    pivots, refactorisations : ndarray of int, shape (N,)
+    basis : ndarray of bool, shape (N, n)
+    """
+
+    status: NDArray[np.str_]
+    z: NDArray[np.float64]
+    w: NDArray[np.float64]
+    residual: NDArray[np.float64]
+    parts: NDArray[np.float64]
+    pivots: NDArray[np.int32]
+    refactorisations: NDArray[np.int32]
+    rung: NDArray[np.str_]
+    basis: NDArray[np.bool_]
+    certificate: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    def __getitem__(self, i: int) -> Result:
+        return Result(
+            status=str(self.status[i]),
+            z=self.z[i],
+            w=self.w[i],
+            residual=float(self.residual[i]),
+            parts=Residual(*map(float, self.parts[i])),
+            pivots=int(self.pivots[i]),
+            refactorisations=int(self.refactorisations[i]),
+            rung=str(self.rung[i]),
+            basis=self.basis[i],
+            certificate=self.certificate[i] if self.certificate[i].any() else None,
+        )
+
+    def __iter__(self) -> Iterator[Result]:
+        return (self[i] for i in range(len(self)))
+
+
+@dataclass(frozen=True)
+class ContactResult:
+    """The impulses of k contacts between b bodies, and the motion after them.
+
+    Attributes
+    ----------
+    normal_impulse : ndarray, shape (k,)
+        [N s], >= 0.
+    friction_impulse : ndarray, shape (k,)
+        [N s], along +t.
+    slip_speed : ndarray, shape (k,)
+        [m/s]. Of a contact that presses: the speed at which it slides. Of an open one: a bound on it.
+    mode : list of str
+        "open", "stick", "slip left" (towards -t) or "slip right".
+    velocity : ndarray, shape (3 b,)
+        After the impulses, v + M^-1 J^T f: (vx, vy, omega) of each body [m/s, m/s, rad/s].
+    result : Result
+        Of the LCP; check its `status`.
+    """
+
+    normal_impulse: NDArray[np.float64]
+    friction_impulse: NDArray[np.float64]
+    slip_speed: NDArray[np.float64]
+    mode: list[str]
+    velocity: NDArray[np.float64]
+    result: Result
+
+
+def _as_result(fields: dict[str, Any]) -> Result:
+    parts = Residual(*fields.pop("parts"))
+    return Result(parts=parts, **fields)
+
+
+def _start_name(method: str) -> str:
+    """The setting that takes a start: the methods that sweep begin at a z, the others at a basis."""
+    return "start_z" if "start_z" in default_settings(method) else "start_basis"
+
+
+def _with_start(method: str, start: Result | ArrayLike | None, settings: dict[str, Any]) -> dict[str, Any]:
+    if start is None:
+        return settings
+    name = _start_name(method)
+    if isinstance(start, Result):
+        start = start.z if name == "start_z" else start.basis
+    return {**settings, name: start}
+
+
+def solve(
+    M: ArrayLike,
+    q: ArrayLike,
+    method: str = "robust",
+    *,
+    row_sizes: ArrayLike | None = None,
+    start: Result | ArrayLike | None = None,
+    **settings: Any,
+) -> Result:
     """One solution of the LCP (M, q).
 
     Parameters
     ----------
     M : array_like, shape (n, n)
     q : array_like, shape (n,)
-    method : {"lemke", "enumerate"}
-        "lemke" pivots, for any n. It finds a solution of every contact problem and of many others, but a "no" from it
-        (status "ray_unproven") proves nothing. "enumerate" tries all 2^n bases, n <= 12, and proves a "no".
+    method : str
+        One of `METHODS`. "robust", the default, is a ladder: fast methods first, then slower and surer ones, until an
+        answer is right when judged by M and q themselves. The others are its rungs and methods for comparison:
+
+        - "lemke": complementary pivoting on a tableau [1]_, about n pivots of n^2 operations. It finds a solution of
+          every contact problem, and of every feasible one with a copositive-plus M; a "no" from it proves nothing.
+        - "lemke_lu": the same pivots, on LU factors of the basis: less rounding is carried on, and zeros are left out.
+        - "enumerate": all 2^n bases, n <= 12; a "no" from it is a proof.
+        - "murty", "dantzig": principal pivots, for matrices without friction: P-matrices, and for "dantzig" semidefinite
+          ones, where its "no" is a proof. Each pivot factors its basis.
+        - "newton": semismooth Newton on min(w, z) = 0; a few iterations of n^3 / 3 operations for P-matrices.
+        - "pgs", "nlgs": sweeps over the unknowns, or over whole contacts with friction: cheap each, but the error only
+          shrinks by some factor. For many contacts with a good `start` and a loose accepted_residual.
+    row_sizes : array_like, shape (n,), optional
+        The typical size of each w_i, see `residual`. `contact_problem` gives them.
+    start : Result or array_like, shape (n,), optional
+        The result of a problem like this one, or its basis. It is tried first; if it still fits, no pivot is made.
+        Methods with the setting start_basis take it, and those with start_z, which want a z in place of a basis.
     **settings
-        For "lemke": max_pivots (0: 100 n + 1000), pivot_tolerance (1e-8), accepted_residual (1e-8).
-        For "enumerate": accepted_residual (1e-9).
+        Settings of the method, by name; `default_settings` lists them.
 
     Returns
     -------
@@ -90,17 +251,238 @@ def solve(M: ArrayLike, q: ArrayLike, method: str = "lemke", **settings: float) 
 
     References
     ----------
-    Cottle, Pang, Stone: The Linear Complementarity Problem, 1992, algorithm 4.4.1.
+    .. [1] R. W. Cottle, J.-S. Pang, R. E. Stone: The Linear Complementarity Problem, 1992, algorithm 4.4.1.
+
+    Examples
+    --------
+    A block slides at 1 m/s and hits the ground at 2 m/s; friction 0.5, mass 1. z is (normal impulse, friction impulse
+    to the right, to the left, slip speed): friction of 1 N s to the left just stops it.
+
+    >>> M = [[1, 0, 0, 0], [0, 1, -1, 1], [0, -1, 1, 1], [0.5, -1, -1, 0]]
+    >>> first = solve(M, [-2, 1, -1, 0])
+    >>> first.status, first.z
+    ('solved', array([2., 0., 1., 0.]))
+
+    A bit slower next time, from there:
+
+    >>> second = solve(M, [-2, 0.9, -0.9, 0], start=first)
+    >>> second.z, second.rung, second.pivots
+    (array([2. , 0. , 0.9, 0. ]), 'closed_form', 0)
+
+    No z fits -z - 1 >= 0:
+
+    >>> solve([[-1]], [-1]).status
+    'infeasible'
     """
-    if method == "lemke":
-        return Result(*_core.lemke(M, q, **settings))  # type: ignore[arg-type]
-    if method == "enumerate":
-        return Result(*_core.enumerate(M, q, **settings))
-    raise ValueError(f"method: must be one of {', '.join(METHODS)}, got {method!r}")
+    return _as_result(_core.solve(M, q, method, row_sizes, _with_start(method, start, settings)))
+
+
+def solve_batch(
+    M: ArrayLike,
+    q: ArrayLike,
+    method: str = "robust",
+    *,
+    row_sizes: ArrayLike | None = None,
+    start: BatchResult | ArrayLike | None = None,
+    threads: int = 1,
+    **settings: Any,
+) -> BatchResult:
+    """One solution of each of N problems of size n, in one call.
+
+    Bit for bit what `solve` gives one by one, whatever the number of threads. A problem with NaN or infinite entries
+    gets the status "bad_input" and touches no other.
+
+    Parameters
+    ----------
+    M : array_like, shape (N, n, n) or (n, n)
+        A matrix for each problem, or one for all.
+    q : array_like, shape (N, n)
+    method : str
+        One of `METHODS`.
+    row_sizes : array_like, shape (N, n) or (n,), optional
+        The typical size of each w_i, see `residual`.
+    start : BatchResult or array_like, shape (N, n) or (n,), optional
+        Where to start, see `solve`.
+    threads : int
+        0 takes one for each processor. The interpreter is free while they work.
+    **settings
+        Settings of the method, by name; `default_settings` lists them.
+
+    Returns
+    -------
+    BatchResult
+
+    Raises
+    ------
+    ValueError
+        For an unknown method, shapes that do not fit, or a setting out of range.
+    TypeError
+        For a setting that the method does not have.
+
+    Examples
+    --------
+    >>> batch = solve_batch([[2, 1], [1, 2]], [[-5, -6], [1, 1], [np.nan, 0]])
+    >>> batch.status
+    array(['solved', 'solved', 'bad_input'], dtype='<U18')
+    >>> batch[0].z
+    array([1.33333333, 2.33333333])
+    """
+    if isinstance(start, BatchResult):
+        start = start.z if _start_name(method) == "start_z" else start.basis
+    fields = _core.solve_batch(M, q, method, row_sizes, start, threads, settings)
+    status, rung = _STATUSES[fields.pop("status")], _RUNGS[fields.pop("rung")]
+    return BatchResult(status=status, rung=rung, **fields)
+
+
+def default_settings(method: str = "robust") -> dict[str, Any]:
+    """The settings that a method takes, with their defaults.
+
+    Parameters
+    ----------
+    method : str
+        One of `METHODS`.
+
+    Returns
+    -------
+    dict
+        - max_pivots: 0 stands for a number that grows with n; max_iterations, max_sweeps: >= 1;
+        - relaxation: of each step of a sweep, in (0, 2);
+        - pivot_tolerance: the smallest pivot, relative to the largest entry of its column, in [0, 1);
+        - accepted_residual: "solved" means a residual no larger than this, in (0, 0.01];
+        - precision: "double" (53 bits) or "quad" (113 bits, some 50 times slower);
+        - ridge: added to the diagonal of the scaled M; the answer is judged without, in [0, 1e-6];
+        - start_basis, start_z: see `start` of `solve`.
+
+    Raises
+    ------
+    ValueError
+        For an unknown method.
+
+    Examples
+    --------
+    >>> default_settings("lemke")
+    {'max_pivots': 0, 'pivot_tolerance': 1e-08, 'accepted_residual': 1e-08}
+    """
+    return _core.settings_of(method)
+
+
+def contact_problem(
+    J_n: ArrayLike,
+    J_t: ArrayLike,
+    inverse_mass: ArrayLike,
+    velocity: ArrayLike,
+    friction: ArrayLike,
+    offset: ArrayLike = 0.0,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """The LCP of k planar contacts with friction between b bodies [1]_.
+
+    Its unknowns are z = (c_1 .. c_k, b+_1, b-_1, .. b+_k, b-_k, s_1 .. s_k): normal impulses, friction impulses along +t
+    and -t [N s], slip speeds [m/s].
+
+    Parameters
+    ----------
+    J_n, J_t : array_like, shape (k, 3 b)
+        u_n = J_n v + offset is the speed at which contact i opens, u_t = J_t v that at which it slides along +t. A row
+        is zero but for the three columns of each of its bodies, at most two.
+    inverse_mass : array_like, shape (3 b,)
+        (1/m, 1/m, 1/I) of each body [1/kg, 1/kg, 1/(kg m^2)]; 0 for what cannot move.
+    velocity : array_like, shape (3 b,)
+        (vx, vy, omega) of each body before the impulses [m/s, m/s, rad/s].
+    friction : array_like, shape (k,) or a number
+        Coefficients of friction, >= 0.
+    offset : array_like, shape (k,) or a number
+        Added to u_n [m/s]: gap / step size, or restitution times the approach speed.
+
+    Returns
+    -------
+    M : ndarray, shape (4 k, 4 k)
+    q : ndarray, shape (4 k,)
+    row_sizes : ndarray, shape (4 k,)
+        For `solve` and `residual`.
+
+    Raises
+    ------
+    ValueError
+        For shapes that do not fit, NaN or infinite entries, negative masses or friction, and for rows that touch no
+        body or more than two.
+
+    References
+    ----------
+    .. [1] D. E. Stewart, J. C. Trinkle: An implicit time-stepping scheme for rigid body dynamics with inelastic
+       collisions and Coulomb friction, 1996.
+
+    Examples
+    --------
+    A ball of mass 2 kg falls straight down on the ground; its spin makes the lowest point, 0.1 m below, move.
+
+    >>> M, q, row_sizes = contact_problem(
+    ...     [[0, 1, 0]], [[1, 0, 0.1]], inverse_mass=[0.5, 0.5, 100], velocity=[0, -1, 5], friction=0.2
+    ... )
+    >>> M + 0.0  # no -0
+    array([[ 0.5,  0. ,  0. ,  0. ],
+           [ 0. ,  1.5, -1.5,  1. ],
+           [ 0. , -1.5,  1.5,  1. ],
+           [ 0.2, -1. , -1. ,  0. ]])
+    >>> q
+    array([-1. ,  0.5, -0.5,  0. ])
+    """
+    return _core.contact_problem(J_n, J_t, inverse_mass, velocity, friction, offset)
+
+
+def solve_contacts(
+    J_n: ArrayLike,
+    J_t: ArrayLike,
+    inverse_mass: ArrayLike,
+    velocity: ArrayLike,
+    friction: ArrayLike,
+    offset: ArrayLike = 0.0,
+    method: str = "robust",
+    *,
+    start: ContactResult | Result | ArrayLike | None = None,
+    **settings: Any,
+) -> ContactResult:
+    """The impulses of k planar contacts with friction between b bodies, and the motion after them.
+
+    Parameters
+    ----------
+    J_n, J_t, inverse_mass, velocity, friction, offset
+        As for `contact_problem`.
+    method, start, **settings
+        As for `solve`. In a simulation, pass the result of the last step as `start` while the contacts stay the same.
+
+    Returns
+    -------
+    ContactResult
+
+    Raises
+    ------
+    ValueError, TypeError
+        As `contact_problem` and `solve`.
+
+    Examples
+    --------
+    The ball of `contact_problem`: friction of 0.2 times 2 N s, to the left, slows the spin and starts it rolling.
+
+    >>> hit = solve_contacts(
+    ...     [[0, 1, 0]], [[1, 0, 0.1]], inverse_mass=[0.5, 0.5, 100], velocity=[0, -1, 5], friction=0.2
+    ... )
+    >>> hit.mode, hit.normal_impulse, hit.friction_impulse.round(6)
+    (['stick'], array([2.]), array([-0.333333]))
+    >>> (hit.velocity + 0.0).round(6)
+    array([-0.166667,  0.      ,  1.666667])
+    """
+    first = start.result if isinstance(start, ContactResult) else start
+    fields = _core.solve_contacts(
+        J_n, J_t, inverse_mass, velocity, friction, offset, method, _with_start(method, first, settings)
+    )
+    result = _as_result(fields.pop("result"))
+    return ContactResult(result=result, **fields)
 
 
 def all_solutions(M: ArrayLike, q: ArrayLike, accepted_residual: float = 1e-9) -> list[Result]:
     """Every vertex solution of the LCP (M, q), n <= 12, in the order of their bases.
+
+    All 2^n bases are tried, each with a linear solve.
 
     Parameters
     ----------
@@ -118,8 +500,13 @@ def all_solutions(M: ArrayLike, q: ArrayLike, accepted_residual: float = 1e-9) -
     ------
     ValueError
         As `solve`, and for n > 12.
+
+    Examples
+    --------
+    >>> [s.z.round(3).tolist() for s in all_solutions([[-2, -1], [-1, -2]], [1, 1])]
+    [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.333, 0.333]]
     """
-    return [Result(*result) for result in _core.all_solutions(M, q, accepted_residual)]
+    return [_as_result(fields) for fields in _core.all_solutions(M, q, accepted_residual)]
 
 
 def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike, row_sizes: ArrayLike | None = None) -> Residual:
@@ -133,7 +520,8 @@ def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike, row_sizes: ArrayLike | No
     q, z : array_like, shape (n,)
     row_sizes : array_like, shape (n,), optional
         The typical size of each w_i, >= 0, in its unit: an approach speed, say. It decides what is round-off in a row
-        whose own terms all vanish. Left out, a small share of the largest entry of q is taken.
+        whose own terms all vanish. Left out, contacts are recognised and get the sizes that `contact_problem` gives;
+        other rows get a small share of the largest entry of q.
 
     Returns
     -------
@@ -143,6 +531,13 @@ def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike, row_sizes: ArrayLike | No
     ------
     ValueError
         For shapes that do not fit, NaN or infinite entries of M or q.
+
+    Examples
+    --------
+    >>> residual([[2, 1], [1, 2]], [-5, -6], [4 / 3, 7 / 3]).largest < 1e-15
+    True
+    >>> round(residual([[2, 1], [1, 2]], [-5, -6], [1, 2]).negative_w, 3)  # w = (-1, -1), of terms up to 6
+    0.111
     """
     return Residual(*_core.residual(M, q, z, row_sizes))
 
@@ -166,5 +561,11 @@ def parse(text: str, name: str = "lcp") -> tuple[NDArray[np.float64], NDArray[np
     ------
     ValueError
         "name:line:column: what is wrong".
+
+    Examples
+    --------
+    >>> M, q = parse("M\\n2 1\\n1 2\\nq\\n-1 -1/2\\n")
+    >>> q
+    array([-1. , -0.5])
     """
     return _core.parse_lcp(text, name)

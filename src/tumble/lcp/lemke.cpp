@@ -80,9 +80,12 @@ void solve(const LcpProblem& problem, const LemkeSettings& settings, LcpWorkspac
 
 std::vector<double> textbook_tableau(const ScaledProblem& problem, const Tableau& tableau) {
   const int n = static_cast<int>(problem.size());
-  // A variable's value in the problem's units is its scaled value times 2^exponent.
+  // A variable's value in the units shown is its scaled value times 2^exponent.
+  const int z0_exponent = -*std::min_element(problem.w_exponent.begin(), problem.w_exponent.end());
   const auto exponent = [&](int variable) {
-    return variable < n ? -problem.w_exponent[variable] : variable < 2 * n ? problem.z_exponent[variable - n] : 0;
+    return variable < n       ? -problem.w_exponent[variable]
+           : variable < 2 * n ? problem.z_exponent[variable - n]
+                              : z0_exponent;
   };
   std::vector<double> entries;
   for (int i = 0; i < n; ++i) {
@@ -123,6 +126,9 @@ LemkeTrace trace_lemke(const LcpProblem& problem, const LemkeSettings& settings)
     for (int i = 0; i < static_cast<int>(problem.size()); ++i) pivot.basis.push_back(tableau.basic(i));
     pivot.tableau = textbook_tableau(workspace.buffers().scaled, tableau);
   });
+  Tableau& tableau = workspace.buffers().tableau;
+  tableau.start(workspace.buffers().scaled);
+  trace.start = textbook_tableau(workspace.buffers().scaled, tableau);
   trace.result = std::move(workspace.result);
   return trace;
 }

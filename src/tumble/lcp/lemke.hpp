@@ -30,9 +30,11 @@ struct LemkePivot {
   std::vector<double> tableau;  // after the pivot: n x (2n + 2), row after row: w, z, z0, value; units of the problem
 };
 
-// The same solve, with every pivot written down. z0 and its column are in the units of the scaled problem.
+// The same solve, with every pivot written down. z0 is in the unit that makes the largest entry of its column in
+// `start` -1; the others are powers of two, of the scaling.
 struct LemkeTrace {
   LcpResult result;
+  std::vector<double> start;  // the tableau of w - M z - d z0 = q, before the first pivot
   std::vector<LemkePivot> pivots;
 };
 LemkeTrace trace_lemke(const LcpProblem& problem, const LemkeSettings& settings = {});

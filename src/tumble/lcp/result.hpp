@@ -50,6 +50,13 @@ enum class LcpRung {
   pgs,            // projected Gauss-Seidel
 };
 
+// All of them in order.
+inline constexpr std::array k_lcp_rungs = {
+    LcpRung::none,     LcpRung::warm_start, LcpRung::closed_form, LcpRung::contact_modes, LcpRung::lemke,
+    LcpRung::lemke_lu, LcpRung::lemke_quad, LcpRung::ridge,       LcpRung::exact,         LcpRung::enumerate,
+    LcpRung::nlgs,     LcpRung::murty,      LcpRung::dantzig,     LcpRung::newton,        LcpRung::pgs};
+
+// The enumerator's own name, "lemke" and so on.
 std::string_view to_string(LcpRung rung);
 
 struct LcpResult {

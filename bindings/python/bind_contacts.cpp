@@ -1,0 +1,151 @@
+// tumble._core: systems of contacts as LCPs. Public face: tumble/lcp.py.
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "convert_lcp.hpp"
+#include <fmt/format.h>
+
+#include "tumble/lcp/contact_system.hpp"
+#include "tumble/lcp/one_contact.hpp"
+
+namespace tumble::python {
+namespace {
+
+using namespace py::literals;
+using Index = std::size_t;
+
+// `as_array` without NaN and infinity; the core would name its own fields.
+Array as_finite(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape) {
+  Array array = as_array(object, name, shape);
+  const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 0;
+  for (py::ssize_t i = 0; i < array.size(); ++i) {
+    if (std::isfinite(array.data()[i])) continue;
+    const std::string place = columns > 0 ? fmt::format("[{}][{}]", i / columns, i % columns) : fmt::format("[{}]", i);
+    throw std::invalid_argument(fmt::format("{}{}: must be finite, got {}", name, place, array.data()[i]));
+  }
+  return array;
+}
+
+// Three numbers for each body.
+std::vector<Vector3> per_body(const py::handle& object, const char* name, py::ssize_t length = -1) {
+  const Array array = as_finite(object, name, {length});
+  if (array.size() % 3 != 0) {
+    throw std::invalid_argument(fmt::format("{}: must have 3 entries for each body, got {}", name, array.size()));
+  }
+  std::vector<Vector3> values;
+  for (const double* x = array.data(); x != array.data() + array.size(); x += 3) values.push_back({x[0], x[1], x[2]});
+  return values;
+}
+
+// One number for each contact, or the same for all.
+std::vector<double> per_contact(const py::handle& object, const char* name, py::ssize_t count) {
+  const auto any = py::array::ensure(object);
+  if (!any) PyErr_Clear();
+  const bool is_one = any && any.ndim() == 0;
+  if (is_one) return std::vector<double>(static_cast<Index>(count), as_number(object, name));
+  return as_vector(as_finite(object, name, {count}));
+}
+
+Vector3 entries_of(const Array& J, py::ssize_t contact, int body) {
+  if (body < 0) return {};
+  return {J.at(contact, 3 * body), J.at(contact, 3 * body + 1), J.at(contact, 3 * body + 2)};
+}
+
+// The bodies that the rows of a contact touch: (-1, b) or (a, b), a < b.
+std::array<int, 2> bodies_of(const Array& J_n, const Array& J_t, py::ssize_t contact) {
+  std::array<int, 2> bodies = {-1, -1};
+  for (py::ssize_t j = 0; j < J_n.shape(1); ++j) {
+    const int body = static_cast<int>(j / 3);
+    const bool is_touched = J_n.at(contact, j) != 0.0 || J_t.at(contact, j) != 0.0;
+    if (!is_touched || body == bodies[1]) continue;
+    if (bodies[0] >= 0) {
+      throw std::invalid_argument(fmt::format("J_n[{0}], J_t[{0}]: must touch at most two bodies, got {1}, {2}, {3}",
+                                              contact, bodies[0], bodies[1], body));
+    }
+    bodies = {bodies[1], body};
+  }
+  if (bodies[1] < 0) throw std::invalid_argument(fmt::format("J_n[{0}], J_t[{0}]: must touch a body", contact));
+  return bodies;
+}
+
+ContactSystem as_system(const py::handle& normal_rows, const py::handle& tangent_rows, const py::handle& inverse_mass,
+                        const py::handle& velocity, const py::handle& friction, const py::handle& offset) {
+  ContactSystem system;
+  system.inverse_mass = per_body(inverse_mass, "inverse_mass");
+  const auto columns = static_cast<py::ssize_t>(3 * system.inverse_mass.size());
+  system.velocity = per_body(velocity, "velocity", columns);
+  const Array J_n = as_finite(normal_rows, "J_n", {-1, columns});
+  const py::ssize_t count = J_n.shape(0);
+  const Array J_t = as_finite(tangent_rows, "J_t", {count, columns});
+  const std::vector<double> mu = per_contact(friction, "friction", count);
+  const std::vector<double> offsets = per_contact(offset, "offset", count);
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const auto [a, b] = bodies_of(J_n, J_t, i);
+    system.contacts.push_back({a, b, entries_of(J_n, i, a), entries_of(J_n, i, b), entries_of(J_t, i, a),
+                               entries_of(J_t, i, b), mu[static_cast<Index>(i)], offsets[static_cast<Index>(i)]});
+  }
+  return system;
+}
+
+// (M, q, row_sizes)
+py::tuple contact_problem(const py::handle& J_n, const py::handle& J_t, const py::handle& inverse_mass,
+                          const py::handle& velocity, const py::handle& friction, const py::handle& offset) {
+  const LcpProblem problem = as_lcp(as_system(J_n, J_t, inverse_mass, velocity, friction, offset));
+  const auto n = static_cast<py::ssize_t>(problem.size());
+  return py::make_tuple(to_numpy(problem.M, n, n), to_numpy(problem.q), to_numpy(problem.row_sizes));
+}
+
+double tangential_velocity(const BodyContact& contact, const std::vector<Vector3>& velocity) {
+  double sum = 0.0;
+  for (Index j = 0; j < 3; ++j) {
+    if (contact.body_a >= 0) sum += contact.tangent_a[j] * velocity[static_cast<Index>(contact.body_a)][j];
+    if (contact.body_b >= 0) sum += contact.tangent_b[j] * velocity[static_cast<Index>(contact.body_b)][j];
+  }
+  return sum;
+}
+
+py::dict solve_contacts(const py::handle& J_n, const py::handle& J_t, const py::handle& inverse_mass,
+                        const py::handle& velocity, const py::handle& friction, const py::handle& offset,
+                        const py::handle& method, const py::dict& settings) {
+  const ContactSystem system = as_system(J_n, J_t, inverse_mass, velocity, friction, offset);
+  const LcpSettings chosen = as_settings(method, settings);
+  LcpResult result;
+  std::vector<Vector3> after;
+  {
+    const py::gil_scoped_release without_gil;
+    result = solve_lcp(as_lcp(system), chosen);
+    after = velocities_after(system, result.z);
+  }
+  const Index k = system.contacts.size();
+  std::vector<double> normal(k), tangential(k), slip(k);
+  py::list modes;
+  for (Index i = 0; i < k; ++i) {
+    normal[i] = result.z[i];
+    tangential[i] = result.z[k + 2 * i] - result.z[k + 2 * i + 1];
+    slip[i] = result.z[3 * k + i];
+    const bool is_left = tangential_velocity(system.contacts[i], after) < 0.0;
+    const ContactMode mode = normal[i] == 0.0 ? ContactMode::open
+                             : slip[i] == 0.0 ? ContactMode::stick
+                             : is_left        ? ContactMode::slip_left
+                                              : ContactMode::slip_right;
+    modes.append(py::str(to_string(mode)));
+  }
+  std::vector<double> velocities;
+  for (const Vector3& v : after) velocities.insert(velocities.end(), v.begin(), v.end());
+  return py::dict("normal_impulse"_a = to_numpy(normal), "friction_impulse"_a = to_numpy(tangential),
+                  "slip_speed"_a = to_numpy(slip), "mode"_a = modes, "velocity"_a = to_numpy(velocities),
+                  "result"_a = as_dict(result));
+}
+
+}  // namespace
+
+void bind_contacts(py::module_& module) {
+  module.def("contact_problem", &contact_problem, "J_n"_a, "J_t"_a, "inverse_mass"_a, "velocity"_a, "friction"_a,
+             "offset"_a);
+  module.def("solve_contacts", &solve_contacts, "J_n"_a, "J_t"_a, "inverse_mass"_a, "velocity"_a, "friction"_a,
+             "offset"_a, "method"_a, "settings"_a);
+}
+
+}  // namespace tumble::python

@@ -1,0 +1,120 @@
+#include "lcp_report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace tumble::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t num_solutions(const LcpReport& report) {
+  return status_of(report) == LcpStatus::solved ? report.results.size() : 0;
+}
+
+// "z1 w2 w3": of each pair the variable that may be other than 0.
+std::string basis_text(const LcpResult& result) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < result.basis.size(); ++i) {
+    names.push_back(fmt::format("{}{}", result.basis[i] ? 'z' : 'w', i + 1));
+  }
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+std::string certificate_text(const LcpResult& result) {
+  if (result.certificate.empty()) return "";
+  const char* meaning =
+      result.status == LcpStatus::infeasible ? "y: M'y <= 0, y >= 0, q'y < 0" : "direction of the ray";
+  return fmt::format("certificate       {}  ({})\n", fmt::join(result.certificate, " "), meaning);
+}
+
+std::string result_text(const LcpResult& result) {
+  const auto& [negative_w, negative_z, complementarity] = result.parts;
+  std::string text = fmt::format("status            {}\n", to_string(result.status));
+  text += fmt::format("z                 {}\n", fmt::join(result.z, " "));
+  text += fmt::format("w                 {}\n", fmt::join(result.w, " "));
+  text += fmt::format("residual          {:.3g}  (w >= 0: {:.3g}, z >= 0: {:.3g}, w.z = 0: {:.3g})\n", result.residual,
+                      negative_w, negative_z, complementarity);
+  text += fmt::format("pivots            {}\n", result.pivots);
+  text += fmt::format("refactorisations  {}\n", result.refactorisations);
+  text += fmt::format("rung              {}\n", to_string(result.rung));
+  text += fmt::format("basis             {}\n", basis_text(result));
+  return text + certificate_text(result);
+}
+
+Json json_of(const LcpResult& result) {
+  const auto& [negative_w, negative_z, complementarity] = result.parts;
+  const Json parts = {{"negative_w", negative_w}, {"negative_z", negative_z}, {"complementarity", complementarity}};
+  return {{"status", to_string(result.status)},
+          {"z", result.z},
+          {"w", result.w},
+          {"residual", result.residual},
+          {"parts", parts},
+          {"pivots", result.pivots},
+          {"refactorisations", result.refactorisations},
+          {"rung", to_string(result.rung)},
+          {"basis", std::vector<bool>(result.basis.begin(), result.basis.end())},
+          {"certificate", result.certificate.empty() ? Json() : Json(result.certificate)}};
+}
+
+Json json_of(const LcpReport& report) {
+  if (!report.error.empty()) return {{"status", to_string(status_of(report))}, {"error", report.error}};
+  if (!report.all) return json_of(report.results.front());
+  Json solutions = Json::array();
+  for (std::size_t i = 0; i < num_solutions(report); ++i) solutions.push_back(json_of(report.results[i]));
+  return {{"n", report.n}, {"status", to_string(status_of(report))}, {"solutions", solutions}};
+}
+
+}  // namespace
+
+LcpStatus status_of(const LcpReport& report) {
+  return report.error.empty() ? report.results.front().status : LcpStatus::bad_input;
+}
+
+std::string lcp_text(const LcpReport& report) {
+  if (!report.all) return result_text(report.results.front());
+  const std::size_t count = num_solutions(report);
+  std::string text =
+      fmt::format("{} vertex solution{} of the LCP with n = {}\n", count, count == 1 ? "" : "s", report.n);
+  for (const LcpResult& result : report.results) text += fmt::format("\n{}", result_text(result));
+  return text;
+}
+
+std::string lcp_json(const LcpReport& report) { return json_of(report).dump(2) + "\n"; }
+
+std::string lcp_text(const std::vector<LcpReport>& reports) {
+  std::size_t width = 4;
+  for (const LcpReport& report : reports) width = std::max(width, report.name.size());
+  const bool all = reports.front().all;
+  std::string text = fmt::format("{:<{}}  {:>4}  {:<18}  {:>8}  {:>7}  {}rung\n", "file", width, "n", "status",
+                                 "residual", "pivots", all ? "solutions  " : "");
+  std::size_t num_solved = 0;
+  for (const LcpReport& report : reports) {
+    if (status_of(report) == LcpStatus::solved) ++num_solved;
+    text += fmt::format("{:<{}}  ", report.name, width);
+    if (report.results.empty()) {
+      text += fmt::format("{:>4}  {}\n", "-", to_string(status_of(report)));
+      continue;
+    }
+    const LcpResult& result = report.results.front();
+    text +=
+        fmt::format("{:>4}  {:<18}  {:>8.1e}  {:>7}  {}{}\n", report.n, to_string(result.status), result.residual,
+                    result.pivots, all ? fmt::format("{:>9}  ", num_solutions(report)) : "", to_string(result.rung));
+  }
+  return text + fmt::format("{} of {} solved\n", num_solved, reports.size());
+}
+
+std::string lcp_json(const std::vector<LcpReport>& reports) {
+  Json list = Json::array();
+  for (const LcpReport& report : reports) {
+    Json entry = {{"file", report.name}};
+    entry.update(json_of(report));
+    list.push_back(std::move(entry));
+  }
+  return list.dump(2) + "\n";
+}
+
+}  // namespace tumble::cli

@@ -1,0 +1,146 @@
+"""tumble.lcp.contact_problem and solve_contacts: bodies, contacts and impulses from Python."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tumble import lcp
+
+BALL = {"J_n": [[0, 1, 0]], "J_t": [[1, 0, 0.1]], "inverse_mass": [0.5, 0.5, 100.0]}  # 0.1 m above the ground
+ROUND_OFF = 1e-12  # of sums of a few terms
+
+
+def random_system(seed: int, num_bodies: int, num_contacts: int) -> dict[str, np.ndarray]:
+    """Contacts between neighbours in a row of bodies, or with the world."""
+    random = np.random.default_rng(seed)
+    J = np.zeros((2, num_contacts, 3 * num_bodies))
+    for i in range(num_contacts):
+        body = random.integers(num_bodies)
+        J[:, i, 3 * body : 3 * body + 3] = random.standard_normal((2, 3))
+        if body + 1 < num_bodies and random.random() < 0.7:
+            J[:, i, 3 * body + 3 : 3 * body + 6] = random.standard_normal((2, 3))
+    return {
+        "J_n": J[0],
+        "J_t": J[1],
+        "inverse_mass": np.exp(random.uniform(-3, 3, 3 * num_bodies)),
+        "velocity": random.standard_normal(3 * num_bodies),
+        "friction": random.uniform(0, 1, num_contacts),
+        "offset": random.uniform(-0.1, 0.1, num_contacts),
+    }
+
+
+@given(st.integers(0, 10**6), st.integers(1, 4), st.integers(1, 6))
+@settings(max_examples=100, deadline=None, derandomize=True)
+def test_the_lcp_is_that_of_the_jacobians(seed: int, num_bodies: int, num_contacts: int) -> None:
+    system = random_system(seed, num_bodies, num_contacts)
+    M, q, row_sizes = lcp.contact_problem(**system)
+    k = num_contacts
+    E = np.kron(np.eye(k), [[1.0], [1.0]])
+    D = np.kron(np.eye(k), [[1.0], [-1.0]]) @ system["J_t"]
+    W = np.diag(system["inverse_mass"])
+    J_n, v, mu = system["J_n"], system["velocity"], np.diag(system["friction"])
+    expected = np.block(
+        [
+            [J_n @ W @ J_n.T, J_n @ W @ D.T, np.zeros((k, k))],
+            [D @ W @ J_n.T, D @ W @ D.T, E],
+            [mu, -E.T, np.zeros((k, k))],
+        ]
+    )
+    np.testing.assert_allclose(M, expected, rtol=ROUND_OFF, atol=ROUND_OFF * np.abs(expected).max())
+    np.testing.assert_allclose(q, np.concatenate([J_n @ v + system["offset"], D @ v, np.zeros(k)]), atol=ROUND_OFF)
+    assert row_sizes.shape == (4 * k,) and (row_sizes > 0).all()
+
+
+@given(st.integers(0, 10**6), st.integers(1, 4), st.integers(1, 6))
+@settings(max_examples=200, deadline=None, derandomize=True)
+def test_the_laws_of_contact_hold(seed: int, num_bodies: int, num_contacts: int) -> None:
+    system = random_system(seed, num_bodies, num_contacts)
+    contacts = lcp.solve_contacts(**system)
+    if contacts.result.status != "solved":  # offsets may ask for what no impulse can do
+        return
+    f_n, f_t, mu = contacts.normal_impulse, contacts.friction_impulse, system["friction"]
+    impulse = system["J_n"].T @ f_n + system["J_t"].T @ f_t
+    # The size of all terms that are summed: round-off is proportional to it.
+    weight = np.abs(system["J_n"]).T @ np.abs(f_n) + np.abs(system["J_t"]).T @ np.abs(f_t)
+    size = 1 + np.abs(system["inverse_mass"] * weight).max()
+    np.testing.assert_allclose(contacts.velocity, system["velocity"] + system["inverse_mass"] * impulse, atol=ROUND_OFF * size)
+    u_n, u_t = system["J_n"] @ contacts.velocity + system["offset"], system["J_t"] @ contacts.velocity
+    tolerance = 10 * ROUND_OFF * size
+    assert (f_n >= 0).all() and (u_n >= -tolerance).all()
+    assert (np.abs(f_t) <= mu * f_n + 10 * ROUND_OFF * (f_n.max() + np.abs(f_t).max())).all()
+    for i, mode in enumerate(contacts.mode):
+        if mode == "open":
+            assert f_n[i] == 0
+        else:
+            assert abs(u_n[i]) <= tolerance
+        if mode == "stick":
+            assert abs(u_t[i]) <= tolerance
+        if mode.startswith("slip"):
+            sign = -1 if mode == "slip left" else 1
+            assert sign * u_t[i] >= -tolerance
+            assert f_t[i] == pytest.approx(-sign * mu[i] * f_n[i], abs=10 * ROUND_OFF * (1 + f_n.max()))
+            assert contacts.slip_speed[i] == pytest.approx(abs(u_t[i]), abs=tolerance)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "friction", "mode"),
+    [
+        ([0, 1, 5], 0.2, "open"),
+        ([0, -1, 5], 0.2, "stick"),
+        ([0, -1, 50], 0.2, "slip right"),
+        ([0, -1, -50], 0.2, "slip left"),
+        ([0, -1, 5], 0.0, "slip right"),
+    ],
+)
+def test_a_spinning_ball(velocity: list[float], friction: float, mode: str) -> None:
+    hit = lcp.solve_contacts(**BALL, velocity=velocity, friction=friction)
+    assert hit.mode == [mode] and hit.result.status == "solved"
+    assert hit.normal_impulse[0] == (0.0 if mode == "open" else 2.0) and hit.velocity[1] == max(velocity[1], 0.0)
+    if mode.startswith("slip"):
+        assert abs(hit.friction_impulse[0]) == friction * 2.0
+
+
+def test_restitution_and_gaps_are_offsets() -> None:
+    hit = lcp.solve_contacts(**BALL, velocity=[0, -1, 0], friction=0.2, offset=-0.5)
+    assert hit.velocity[1] == 0.5 and hit.normal_impulse[0] == 3.0
+    assert lcp.solve_contacts(**BALL, velocity=[0, -1, 0], friction=0.2, offset=2.0).mode == ["open"]
+
+
+def test_the_last_step_starts_the_next() -> None:
+    system = random_system(3, 4, 6)
+    for start in (first := lcp.solve_contacts(**system), first.result, first.result.basis):
+        again = lcp.solve_contacts(**system, start=start)
+        assert again.result.pivots <= first.result.pivots and again.result.rung == "warm_start"
+        np.testing.assert_allclose(again.velocity, first.velocity, atol=ROUND_OFF)
+    assert lcp.solve_contacts(**system, method="lemke").result.rung == "lemke"
+
+
+BALL_ROLLS = {**BALL, "velocity": [1, -1, 0], "friction": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"J_n": [[0, 1]]}, r"J_n: must have shape \(n, 3\), got \(1, 2\)"),
+        ({"J_t": [[1, 0, 0], [1, 0, 0]]}, r"J_t: must have shape \(1, 3\), got \(2, 3\)"),
+        ({"inverse_mass": [1, 1]}, "inverse_mass: must have 3 entries for each body, got 2"),
+        ({"velocity": [1, -1, 0, 0, 0, 0]}, r"velocity: must have shape \(3,\), got \(6,\)"),
+        ({"friction": [0.5, 0.5]}, r"friction: must have shape \(1,\), got \(2,\)"),
+        ({"friction": -0.5}, r"friction: must be finite and >= 0, got -0.5"),
+        ({"friction": "rough"}, "friction: must be a number, got 'rough'"),
+        ({"offset": np.nan}, r"offset: must be finite, got nan"),
+        ({"inverse_mass": [-1, 1, 1]}, r"inverse_mass\[0\]: must be >= 0, got -1"),
+        ({"velocity": [1, np.inf, 0]}, r"velocity\[1\]: must be finite, got inf"),
+        ({"J_n": [[0, np.nan, 0]]}, r"J_n\[0\]\[1\]: must be finite, got nan"),
+        ({"J_n": [[0, 0, 0]], "J_t": [[0, 0, 0]]}, r"J_n\[0\], J_t\[0\]: must touch a body"),
+        ({"J_n": np.zeros((0, 3)), "J_t": np.zeros((0, 3))}, "contact"),
+    ],
+)
+def test_bad_systems_are_refused_by_name(change: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        lcp.solve_contacts(**{**BALL_ROLLS, **change})  # type: ignore[arg-type]
+
+
+def test_a_contact_has_two_bodies_at_most() -> None:
+    with pytest.raises(ValueError, match=r"J_n\[0\], J_t\[0\]: must touch at most two bodies, got 0, 1, 2"):
+        lcp.contact_problem(np.ones((1, 9)), np.ones((1, 9)), np.ones(9), np.ones(9), 0.5)
