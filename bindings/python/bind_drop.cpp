@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "convert.hpp"
 #include <fmt/format.h>
@@ -102,14 +104,52 @@ void require_complete(const drop::Trajectory& trajectory, const Parameters& para
       trajectory.status);
 }
 
-py::tuple simulate(const py::handle& q0, const py::handle& v0, const Parameters& parameters) {
-  const Vector3 q = as_vector3(q0, "q0");
-  const Vector3 v = as_vector3(v0, "v0");
-  drop::Trajectory trajectory;
-  {
-    const py::gil_scoped_release without_gil;
-    trajectory = drop::simulate(q, v, parameters);
+// One trajectory of pieces that each begin with the last column of the one before.
+drop::Trajectory join(const std::vector<drop::Trajectory>& pieces, int columns) {
+  const auto stride = static_cast<std::size_t>(columns);
+  drop::Trajectory whole{columns, std::vector<double>(3 * stride), std::vector<double>(3 * stride),
+                         pieces.back().status};
+  std::size_t start = 0;
+  for (const drop::Trajectory& piece : pieces) {
+    const auto length = static_cast<std::size_t>(piece.columns);
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::copy_n(&piece.q[i * length], length, &whole.q[i * stride + start]);
+      std::copy_n(&piece.v[i * length], length, &whole.v[i * stride + start]);
+    }
+    start += length - 1;
   }
+  return whole;
+}
+
+// A long run in pieces, so that Ctrl-C is noticed between them; `simulate(q, v, parameters)` runs one. A step depends
+// on its state alone, so the numbers are those of a run in one piece.
+template <class Simulate>
+drop::Trajectory simulate_in_pieces(Vector3 q, Vector3 v, const Parameters& parameters, Simulate simulate) {
+  constexpr int k_piece = 100'000;  // columns, some milliseconds
+  const auto run = [&](int columns) {
+    const py::gil_scoped_release without_gil;
+    Parameters piece = parameters;
+    piece.columns = columns;
+    return simulate(q, v, piece);
+  };
+  drop::Trajectory first = run(std::min(parameters.columns, k_piece));
+  int columns = first.columns;
+  if (columns == parameters.columns || first.status != LcpStatus::solved) return first;
+  std::vector<drop::Trajectory> pieces;
+  pieces.push_back(std::move(first));
+  while (columns < parameters.columns && pieces.back().status == LcpStatus::solved) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    q = pieces.back().q_at(pieces.back().columns - 1);
+    v = pieces.back().v_at(pieces.back().columns - 1);
+    pieces.push_back(run(std::min(parameters.columns - columns + 1, k_piece)));
+    columns += pieces.back().columns - 1;
+  }
+  return join(pieces, columns);
+}
+
+py::tuple simulate(const py::handle& q0, const py::handle& v0, const Parameters& parameters) {
+  const drop::Trajectory trajectory =
+      simulate_in_pieces(as_vector3(q0, "q0"), as_vector3(v0, "v0"), parameters, &drop::simulate);
   require_complete(trajectory, parameters);
   return py::make_tuple(to_numpy(trajectory.q, 3, trajectory.columns), to_numpy(trajectory.v, 3, trajectory.columns));
 }
@@ -129,7 +169,15 @@ py::list collect_names(const drop::Record& record, Field field) {
 }
 
 py::dict simulate_with_record(const py::handle& q0, const py::handle& v0, const Parameters& parameters) {
-  const drop::Record record = drop::simulate_with_record(as_vector3(q0, "q0"), as_vector3(v0, "v0"), parameters);
+  drop::Record record;
+  record.trajectory =
+      simulate_in_pieces(as_vector3(q0, "q0"), as_vector3(v0, "v0"), parameters,
+                         [&record](const Vector3& q, const Vector3& v, const Parameters& piece_parameters) {
+                           drop::Record piece = drop::simulate_with_record(q, v, piece_parameters);
+                           if (!record.steps.empty()) record.steps.pop_back();  // the first of this piece says the same
+                           record.steps.insert(record.steps.end(), piece.steps.begin(), piece.steps.end());
+                           return std::move(piece.trajectory);
+                         });
   const drop::Trajectory& trajectory = record.trajectory;
   const int columns = trajectory.columns;
   py::array_t<double> t(columns);

@@ -49,7 +49,7 @@ def render(
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity, or an unknown ending.
+        For a wrong shape, NaN, infinity or a masked entry, or an unknown ending.
     """
     params = Parameters() if params is None else params
     poses = _as_poses(q)
@@ -75,6 +75,8 @@ def render(
 
 
 def _as_poses(q: ArrayLike) -> NDArray[np.float64]:
+    if (masked := int(np.sum(np.ma.getmaskarray(q)))) > 0:  # type: ignore[no-untyped-call]
+        raise ValueError(f"q: must have no masked entry, got {masked}")
     poses = np.asarray(q)
     if poses.dtype.kind not in "fiu":
         raise ValueError(f"q: must be an array of real numbers, got dtype {poses.dtype}")
