@@ -129,6 +129,16 @@ def test_speed_stretches_the_animation(tmp_path: Path) -> None:
     assert Image.open(tmp_path / "b.gif").n_frames > 1.8 * Image.open(tmp_path / "a.gif").n_frames
 
 
+def test_an_unknown_command_is_named(tmp_path: Path) -> None:
+    assert "there is no command 'fall'; there are drop, render and lcp" in refuse("fall", cwd=tmp_path)
+    assert "there is no command 'a?b'" in refuse("a\nb", cwd=tmp_path)
+
+
+def test_a_named_pipe_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.gif")
+    assert "pipe.gif: is a named pipe" in refuse("drop", "--force", "-o", "pipe.gif", cwd=tmp_path)
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
