@@ -59,6 +59,12 @@ py::dict as_dict(const Parameters& p) {
                   "g"_a = p.g, "columns"_a = p.columns);
 }
 
+const Parameters& as_parameters(const py::handle& object) {
+  if (py::isinstance<Parameters>(object)) return object.cast<const Parameters&>();
+  const std::string type = py::str(py::type::handle_of(object).attr("__name__"));
+  throw py::type_error(fmt::format("params: must be a tumble.drop.Parameters, got {}", type));
+}
+
 drop::Jacobian as_jacobian(const py::handle& object) {
   const Array J = as_array(object, "J", {3, 2});
   drop::Jacobian jacobian;
@@ -69,13 +75,15 @@ drop::Jacobian as_jacobian(const py::handle& object) {
   return jacobian;
 }
 
-py::tuple get_contacts(const py::handle& q, const Parameters& parameters) {
+py::tuple get_contacts(const py::handle& q, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const auto [J, phi] = drop::get_contacts(as_vector3(q, "q"), parameters);
   const std::array<double, 6> rows = {J.t[0], J.n[0], J.t[1], J.n[1], J.t[2], J.n[2]};
   return py::make_tuple(to_numpy(rows, 3, 2), phi);
 }
 
-py::tuple form_lcp(const py::handle& J, const py::handle& v, const Parameters& parameters) {
+py::tuple form_lcp(const py::handle& J, const py::handle& v, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const auto [V, p] = drop::form_lcp(as_jacobian(J), as_vector3(v, "v"), parameters);
   return py::make_tuple(to_numpy(std::span(V[0].data(), 16), 4, 4), to_numpy(p));
 }
@@ -90,7 +98,8 @@ py::array_t<double> solve_LCP(const py::handle& V, const py::handle& p) {
   return to_numpy(drop::solve_LCP(rows, right));
 }
 
-py::tuple step(const py::handle& q, const py::handle& v, const Parameters& parameters) {
+py::tuple step(const py::handle& q, const py::handle& v, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const auto [q_next, v_next] = drop::step(as_vector3(q, "q"), as_vector3(v, "v"), parameters);
   return py::make_tuple(to_numpy(q_next), to_numpy(v_next));
 }
@@ -147,7 +156,8 @@ drop::Trajectory simulate_in_pieces(Vector3 q, Vector3 v, const Parameters& para
   return join(pieces, columns);
 }
 
-py::tuple simulate(const py::handle& q0, const py::handle& v0, const Parameters& parameters) {
+py::tuple simulate(const py::handle& q0, const py::handle& v0, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const drop::Trajectory trajectory =
       simulate_in_pieces(as_vector3(q0, "q0"), as_vector3(v0, "v0"), parameters, &drop::simulate);
   require_complete(trajectory, parameters);
@@ -168,7 +178,8 @@ py::list collect_names(const drop::Record& record, Field field) {
   return names;
 }
 
-py::dict simulate_with_record(const py::handle& q0, const py::handle& v0, const Parameters& parameters) {
+py::dict simulate_with_record(const py::handle& q0, const py::handle& v0, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   drop::Record record;
   record.trajectory =
       simulate_in_pieces(as_vector3(q0, "q0"), as_vector3(v0, "v0"), parameters,
@@ -202,7 +213,8 @@ py::dict simulate_with_record(const py::handle& q0, const py::handle& v0, const 
                   "kinetic"_a = kinetic, "potential"_a = potential);
 }
 
-py::array_t<double> corner_positions(const py::handle& q, const Parameters& parameters) {
+py::array_t<double> corner_positions(const py::handle& q, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const auto corners = drop::corner_positions(as_vector3(q, "q"), parameters);
   return to_numpy(std::span(corners[0].data(), 8), 4, 2);
 }

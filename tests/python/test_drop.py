@@ -128,6 +128,16 @@ def test_unknown_parameters_are_refused() -> None:
         Parameters(0.4)
 
 
+@pytest.mark.parametrize("params", [None, {"l": 0.4}, 0.4])
+def test_other_things_than_parameters_are_refused_in_one_line(params) -> None:
+    message = f"^params: must be a tumble.drop.Parameters, got {type(params).__name__}$"
+    for call in (drop.step, drop.simulate, drop.record):
+        with pytest.raises(TypeError, match=message):
+            call(Q0, V0, params=params)
+    with pytest.raises(TypeError, match=message):
+        drop.get_contacts(Q0, params)
+
+
 def test_parameters_are_values() -> None:
     a = Parameters(l=0.4, mu=0.5)
     assert a == Parameters(l=0.4, mu=0.5) and hash(a) == hash(Parameters(l=0.4, mu=0.5)) and a != Parameters()
