@@ -17,6 +17,8 @@
 
 #include "tumble/lcp/methods.hpp"
 
+#include "tumble/output/file.hpp"
+
 namespace tumble::cli {
 namespace {
 
@@ -31,6 +33,7 @@ const std::map<std::string, std::string> k_option_of_field = {{"l", "--side"},
                                                               {"g", "--gravity"},
                                                               {"columns", "--steps + 1"},
                                                               {"m, l", "--mass, --side"},
+                                                              {"q0, v0", "--q0, --v0"},
                                                               {"width", "--width"},
                                                               {"height", "--height"},
                                                               {"speed", "--speed"},
@@ -166,6 +169,14 @@ void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& comma
 
 int fail(const std::string& message) { return report_failure(message, k_bad_input); }
 
+// CLI11 would say that a command is missing and leave out that it does not know the word.
+void require_command(const CLI::App& program, const std::string& word) {
+  const auto commands = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
+  if (commands.empty() && !word.starts_with('-')) {
+    throw std::invalid_argument(fmt::format("there is no command '{}'; there are drop, render and lcp", word));
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Tumble: rigid bodies in the plane under frictional contact.", "tumble");
   program.set_version_flag("--version", std::string("tumble ") + TUMBLE_VERSION);
@@ -183,6 +194,7 @@ int run(int argc, char** argv) {
   add_lcp(program, lcp_options, command);
 
   try {
+    if (argc > 1) require_command(program, argv[1]);
     program.parse(argc, argv);
     const int exit_code = command();
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("standard output could not be written");
@@ -200,7 +212,7 @@ int run(int argc, char** argv) {
 
 int report_failure(const std::string& message, int exit_code) {
   std::fflush(stdout);
-  fmt::print(stderr, "tumble: {}\n", message);
+  fmt::print(stderr, "tumble: {}\n", output::path_text(message));  // words of the user may hold anything
   return exit_code;
 }
 
