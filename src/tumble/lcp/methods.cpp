@@ -23,7 +23,7 @@ const std::array k_methods = {
     LcpMethod{"lemke", "Lemke's pivots on a tableau; finds a solution if M is copositive-plus and w >= 0 is possible",
               LemkeSettings{}},
     LcpMethod{"lemke_lu",
-              "Lemke's pivots on LU factors of the basis; for nearly singular or large problems; can start warm",
+              "Lemke's pivots on LU factors of the basis; for nearly singular or large problems; starts warm",
               LemkeLuSettings{}},
     LcpMethod{"enumerate", "all 2^n bases, n <= 12; the first solution, or proof that there is none",
               EnumerateSettings{}},
