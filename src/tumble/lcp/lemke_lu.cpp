@@ -122,7 +122,7 @@ LcpStatus walk(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWo
   LcpResult& result = workspace.result;
   const auto n = problem.size();
   const int max_pivots = settings.max_pivots > 0 ? settings.max_pivots : 10 * static_cast<int>(n) + 100;
-  basis.start(buffers.scaled, settings.ridge, settings.start_basis);
+  basis.start(buffers.scaled, settings.ridge, settings.start_basis, settings.cover);
   Walk<Real> walk{basis, settings.pivot_tolerance, max_pivots, settings.max_exchanges, {}, {}};
   const LcpStatus status = walk.run();
   result.pivots += walk.pivots;
@@ -145,6 +145,7 @@ void validate(const LemkeLuSettings& settings) {
   require(settings.pivot_tolerance >= 0.0 && settings.pivot_tolerance < 1.0, "pivot_tolerance", "in [0, 1)",
           settings.pivot_tolerance);
   require(settings.max_exchanges >= 0, "max_exchanges", ">= 0", settings.max_exchanges);
+  require(settings.cover >= 0, "cover", ">= 0", settings.cover);
   require_accepted_residual(settings.accepted_residual);
   require(settings.ridge >= 0.0 && settings.ridge <= 1e-6, "ridge", "in [0, 1e-6]", settings.ridge);
 }

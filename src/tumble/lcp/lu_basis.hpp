@@ -17,8 +17,9 @@ namespace tumble {
 template <class Real>
 class LuBasis {
  public:
-  // A complementary basis; the cover is such that every w_i and z_i in it grows by 1 with z0.
-  void start(const ScaledProblem& problem, double ridge, const std::vector<std::uint8_t>& basis) {
+  // A complementary basis; the cover is such that every w_i and z_i in it grows by 1 with z0, or, for a cover number
+  // above 0, by a pseudo-random amount in [1, 2).
+  void start(const ScaledProblem& problem, double ridge, const std::vector<std::uint8_t>& basis, int cover_number = 0) {
     n_ = static_cast<int>(problem.size());
     const auto n = static_cast<std::size_t>(n_);
     column_begin_.assign(1, 0);
@@ -38,9 +39,10 @@ class LuBasis {
     for (std::size_t i = 0; i < n; ++i) slot_of_[!basis.empty() && basis[i] ? n + i : i] = 0;
     cover_.assign(n, Real(0));
     for (std::size_t i = 0; i < n; ++i) {
-      if (is_basic(static_cast<int>(i))) cover_[i] += Real(1);
+      const Real growth = growth_in_cover(i, cover_number);
+      if (is_basic(static_cast<int>(i))) cover_[i] += growth;
       if (!is_basic(static_cast<int>(n + i))) continue;
-      for (std::size_t e = column_begin_[i]; e < column_begin_[i + 1]; ++e) cover_[row_[e]] -= entry_[e];
+      for (std::size_t e = column_begin_[i]; e < column_begin_[i + 1]; ++e) cover_[row_[e]] -= entry_[e] * growth;
     }
   }
 
@@ -139,6 +141,14 @@ class LuBasis {
   }
 
  private:
+  static Real growth_in_cover(std::size_t i, int cover_number) {
+    if (cover_number == 0) return Real(1);
+    std::uint64_t x = (i + 1) * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(cover_number) * 0xd1b54a32d192ed03u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;  // SplitMix64
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return Real(1.0 + static_cast<double>(x >> 44) * 0x1p-20);
+  }
+
   struct Eta {
     int slot;
     std::size_t begin;  // of its n entries

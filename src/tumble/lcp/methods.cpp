@@ -42,12 +42,14 @@ const std::array k_methods = {
 template <class Settings, class Visit>
 void visit_settings(Settings& settings, const Visit& visit) {
   if constexpr (requires { settings.max_pivots; }) visit("max_pivots", settings.max_pivots);
+  if constexpr (requires { settings.max_exchanges; }) visit("max_exchanges", settings.max_exchanges);
   if constexpr (requires { settings.max_iterations; }) visit("max_iterations", settings.max_iterations);
   if constexpr (requires { settings.max_sweeps; }) visit("max_sweeps", settings.max_sweeps);
   if constexpr (requires { settings.relaxation; }) visit("relaxation", settings.relaxation);
   if constexpr (requires { settings.pivot_tolerance; }) visit("pivot_tolerance", settings.pivot_tolerance);
   if constexpr (requires { settings.accepted_residual; }) visit("accepted_residual", settings.accepted_residual);
   if constexpr (requires { settings.precision; }) visit("precision", settings.precision);
+  if constexpr (requires { settings.cover; }) visit("cover", settings.cover);
   if constexpr (requires { settings.ridge; }) visit("ridge", settings.ridge);
   if constexpr (requires { settings.start_basis; }) visit("start_basis", settings.start_basis);
   if constexpr (requires { settings.start_z; }) visit("start_z", settings.start_z);

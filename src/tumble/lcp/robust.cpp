@@ -124,6 +124,9 @@ void try_lemke(const LcpProblem& problem, const RobustSettings& settings, LcpWor
 
 void try_lemke_lu(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   run_lemke_lu(problem, {.accepted_residual = settings.accepted_residual}, workspace);
+  for (int cover = 1; cover <= 3 && workspace.result.status == LcpStatus::iteration_limit; ++cover) {  // a circle
+    run_lemke_lu(problem, {.accepted_residual = settings.accepted_residual, .cover = cover}, workspace);
+  }
 }
 
 // Lemke's ray is a proof itself where M is copositive-plus [Cottle 1992, theorem 4.4.11]; else one is looked for.
@@ -169,22 +172,14 @@ void try_lemke_quad(const LcpProblem& problem, const RobustSettings& settings, L
   run_quad(problem, settings, workspace, {0.0, 1e-14, 1e-13});
 }
 
-// For large problems. The first ridge from no basis and, where that leads in circles, from a guess of the modes.
+// For large problems.
 void try_ridge(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   if (problem.size() <= k_max_quad_size) return;
-  LcpWorkspace::Buffers& buffers = workspace.buffers();
-  const auto attempt = [&](double ridge, const std::vector<std::uint8_t>& start_basis) {
-    run_lemke_lu(problem, {.accepted_residual = settings.accepted_residual, .ridge = ridge, .start_basis = start_basis},
-                 workspace);
-    if (workspace.result.status != LcpStatus::solved) run_quad(problem, settings, workspace, {0.0, 1e-14});
-    return workspace.result.status == LcpStatus::solved;
-  };
   for (const double ridge : {1e-11, 1e-9, 1e-7}) {
-    if (attempt(ridge, {})) return;
-    if (!buffers.has_contacts) continue;
-    buffers.modes.sweep(buffers.contacts, 100);
-    buffers.modes.write(buffers.contacts, buffers.z, workspace.result.basis);
-    if (attempt(ridge, std::vector<std::uint8_t>(workspace.result.basis))) return;
+    run_lemke_lu(problem, {.accepted_residual = settings.accepted_residual, .cover = 1, .ridge = ridge}, workspace);
+    if (workspace.result.status == LcpStatus::solved) return;
+    run_quad(problem, settings, workspace, {0.0, 1e-14});
+    if (workspace.result.status == LcpStatus::solved) return;
   }
 }
 
