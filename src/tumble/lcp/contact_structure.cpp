@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tumble/math/instruction_sets.hpp"
+
 namespace tumble {
 namespace {
 
@@ -38,6 +40,14 @@ bool is_near(const LcpProblem& problem, std::size_t i, std::size_t j, double x, 
   return x == y || (x - y) * (x - y) <= round_off * round_off * problem(i, i) * problem(j, j);
 }
 
+// How many entries of two rows are not each other's negatives. Written so that it becomes vector code.
+TUMBLE_INSTRUCTION_SETS
+int count_unlike(const double* a, const double* b, int n) {
+  int count = 0;
+  for (int j = 0; j < n; ++j) count += a[j] + b[j] != 0.0;
+  return count;
+}
+
 // Rows of plus and minus are each other's negatives, but for the slip, of which both hold the same share > 0.
 bool has_friction_rows(const LcpProblem& problem, const std::vector<ContactPlace>& places) {
   const std::size_t n = problem.size();
@@ -48,50 +58,71 @@ bool has_friction_rows(const LcpProblem& problem, const std::vector<ContactPlace
     if (!(std::abs(problem.q[plus] + problem.q[minus]) <= 1e-15 * speed)) return false;
     const double* row_plus = problem.M.data() + plus * n;
     const double* row_minus = problem.M.data() + minus * n;
-    for (std::size_t j = 0; j < n; ++j) {
+    if (!(row_plus[p.s] > 0.0)) return false;
+    const bool is_exact =
+        row_plus[p.s] == row_minus[p.s] && count_unlike(row_plus, row_minus, static_cast<int>(n)) == 1;
+    for (std::size_t j = 0; j < n && !is_exact; ++j) {
       const bool is_slip = static_cast<int>(j) == p.s;
       if (!is_near(problem, plus, j, row_plus[j], is_slip ? row_minus[j] : -row_minus[j])) return false;
     }
-    if (!(row_plus[p.s] > 0.0)) return false;
   }
   return true;
 }
 
-// Columns of plus and minus are each other's negatives, but for the cone; column s acts on plus and minus alone.
-bool has_friction_columns(const LcpProblem& problem, const std::vector<ContactPlace>& places) {
-  const std::size_t n = problem.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double* row = problem.M.data() + i * n;
-    for (const ContactPlace& p : places) {
-      const int row_index = static_cast<int>(i);
-      const bool is_own = row_index == p.plus || row_index == p.minus;
-      if (!is_own && row[p.s] != 0.0) return false;
-      const auto plus = static_cast<std::size_t>(p.plus);
-      if (row_index != p.s && !is_near(problem, i, plus, row[p.plus], -row[p.minus])) return false;
-    }
-  }
-  return true;
-}
-
-// Rows of A are velocities in one unit, impulses too: A is symmetric, with a diagonal > 0.
-bool is_symmetric(const LcpProblem& problem, const std::vector<ContactPlace>& places) {
-  for (std::size_t a = 0; a < places.size(); ++a) {
-    for (const int i : {places[a].c, places[a].plus}) {
-      if (i < 0) continue;
-      const auto row = static_cast<std::size_t>(i);
-      if (!(problem(row, row) > 0.0)) return false;
-      for (std::size_t b = 0; b <= a; ++b) {
-        for (const int j : {places[b].c, places[b].plus}) {
-          const auto column = static_cast<std::size_t>(j);
-          if (j >= 0 && !is_near(problem, row, column, problem(row, column), problem(column, row))) return false;
-        }
-      }
+// Rows of A are velocities in one unit, impulses too: A is symmetric.
+bool is_symmetric(const LcpProblem& problem, const ContactStructure& structure) {
+  const auto index = [&](std::size_t row) {
+    const ContactPlace& place = structure.places[row / 2];
+    return static_cast<std::size_t>(row % 2 == 0 ? place.c : place.plus);
+  };
+  for (std::size_t row = 0; row + 1 < structure.row_begin.size(); ++row) {
+    for (std::size_t e = structure.row_begin[row]; e < structure.row_begin[row + 1]; ++e) {
+      const std::size_t i = index(row), j = index(static_cast<std::size_t>(structure.column[e]));
+      if (!is_near(problem, i, j, structure.entry[e], problem(j, i))) return false;
     }
   }
   return true;
 }
 
 }  // namespace
+
+bool read_responses(const LcpProblem& problem, ContactStructure& structure) {
+  const std::size_t n = problem.size();
+  structure.row_begin.assign(1, 0);
+  structure.column.clear();
+  structure.entry.clear();
+  structure.diagonal.clear();
+  structure.b.clear();
+  for (const ContactPlace& p : structure.places) {
+    for (const int i : {p.c, p.plus}) {
+      const auto own = static_cast<int>(structure.b.size());
+      double diagonal = 0.0;
+      if (i >= 0) {
+        const double* row = problem.M.data() + static_cast<std::size_t>(i) * n;
+        int column = 0;
+        for (const ContactPlace& other : structure.places) {
+          for (const int j : {other.c, other.plus}) {
+            if (j >= 0 && row[j] != 0.0) {
+              structure.column.push_back(column);
+              structure.entry.push_back(row[j]);
+              if (column == own) diagonal = row[j];
+            }
+            ++column;
+          }
+          if (other.s < 0) continue;
+          if (row[other.s] != 0.0 && i != other.plus) return false;
+          const auto plus = static_cast<std::size_t>(other.plus);
+          if (!is_near(problem, static_cast<std::size_t>(i), plus, row[other.plus], -row[other.minus])) return false;
+        }
+        if (!(diagonal > 0.0)) return false;
+      }
+      structure.b.push_back(i >= 0 ? problem.q[static_cast<std::size_t>(i)] : 0.0);
+      structure.diagonal.push_back(diagonal);
+      structure.row_begin.push_back(structure.column.size());
+    }
+  }
+  return true;
+}
 
 bool find_contacts(const LcpProblem& problem, ContactStructure& structure) {
   const int n = static_cast<int>(problem.size());
@@ -116,45 +147,13 @@ bool find_contacts(const LcpProblem& problem, ContactStructure& structure) {
     }
     places.push_back(p);
   }
-  if (places.empty() || !has_friction_rows(problem, places) || !has_friction_columns(problem, places)) return false;
+  if (places.empty() || !has_friction_rows(problem, places)) return false;
   for (ContactPlace& p : places) p.slip = problem(static_cast<std::size_t>(p.plus), static_cast<std::size_t>(p.s));
   for (int j = 0; j < n; ++j) {  // what no cone names is a normal of its own
     if (owner[static_cast<std::size_t>(j)] >= 0) continue;
     places.emplace_back().c = j;
   }
-  return is_symmetric(problem, places);
-}
-
-void read_responses(const LcpProblem& problem, ContactStructure& structure) {
-  const std::size_t n = problem.size();
-  structure.row_begin.assign(1, 0);
-  structure.column.clear();
-  structure.entry.clear();
-  structure.diagonal.clear();
-  structure.b.clear();
-  for (const ContactPlace& p : structure.places) {
-    for (const int i : {p.c, p.plus}) {
-      const auto own = static_cast<int>(structure.b.size());
-      double diagonal = 0.0;
-      if (i >= 0) {
-        const double* row = problem.M.data() + static_cast<std::size_t>(i) * n;
-        int column = 0;
-        for (const ContactPlace& other : structure.places) {
-          for (const int j : {other.c, other.plus}) {
-            if (j >= 0 && row[j] != 0.0) {
-              structure.column.push_back(column);
-              structure.entry.push_back(row[j]);
-              if (column == own) diagonal = row[j];
-            }
-            ++column;
-          }
-        }
-      }
-      structure.b.push_back(i >= 0 ? problem.q[static_cast<std::size_t>(i)] : 0.0);
-      structure.diagonal.push_back(diagonal);
-      structure.row_begin.push_back(structure.column.size());
-    }
-  }
+  return read_responses(problem, structure) && is_symmetric(problem, structure);
 }
 
 void contact_row_sizes(const LcpProblem& problem, const std::vector<ContactPlace>& places, std::vector<double>& sizes) {

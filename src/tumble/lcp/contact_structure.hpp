@@ -37,12 +37,14 @@ struct ContactStructure {
   std::vector<double> b;         // 2 m
 };
 
-// True if every unknown belongs to a contact as above, one of them at least with friction, and A is symmetric; `places`
-// is then filled. Entries that should be equal may differ by the round-off of forming them.
+// True if every unknown belongs to a contact as above, one of them at least with friction, and A is symmetric with a
+// positive diagonal; the structure is then filled. Entries that should be equal may differ by the round-off of forming
+// them.
 bool find_contacts(const LcpProblem& problem, ContactStructure& structure);
 
-// Fills A and b from the problem.
-void read_responses(const LcpProblem& problem, ContactStructure& structure);
+// Fills A and b for the places. False unless, in the rows of c and plus of every contact, the diagonal is positive,
+// columns of plus and minus are each other's negatives and column s acts on its own contact alone.
+bool read_responses(const LcpProblem& problem, ContactStructure& structure);
 
 // Row sizes of contacts, as a contact model gives them: the largest |q| among velocity rows, and what it is worth in
 // each cone row. n values.

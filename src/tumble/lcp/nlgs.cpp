@@ -143,7 +143,7 @@ bool take_rows_as_blocks(const LcpProblem& problem, ContactStructure& structure)
     if (!(problem(i, i) > 0.0)) return false;
     structure.places.emplace_back().c = static_cast<int>(i);
   }
-  return true;
+  return read_responses(problem, structure);
 }
 
 }  // namespace
@@ -165,7 +165,6 @@ void run_nlgs(const LcpProblem& problem, const NlgsSettings& settings, LcpWorksp
   result.status = result.residual <= settings.accepted_residual ? LcpStatus::solved : LcpStatus::numerical;
   if (result.status == LcpStatus::solved) return;
   if (!buffers.has_contacts && !take_rows_as_blocks(problem, buffers.contacts)) return;
-  read_responses(problem, buffers.contacts);
   Sweeper sweeper{buffers.contacts, buffers.row_sizes, buffers.impulses, buffers.impulse_modes};
   sweeper.read(settings.start_z);
   for (int until_check = k_sweeps_per_check; result.pivots < settings.max_sweeps;) {

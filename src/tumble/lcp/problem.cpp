@@ -1,11 +1,28 @@
 #include "tumble/lcp/problem.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "tumble/math/instruction_sets.hpp"
+
 namespace tumble {
+
+namespace {
+
+// Exponent bits of a NaN or an infinity are all 1. Written so that it becomes vector code.
+TUMBLE_INSTRUCTION_SETS
+bool is_all_finite(const double* values, std::size_t count) {
+  constexpr std::uint64_t exponent = 0x7ff0000000000000u;
+  std::uint64_t is_bad = 0;
+  for (std::size_t i = 0; i < count; ++i) is_bad |= (std::bit_cast<std::uint64_t>(values[i]) & exponent) == exponent;
+  return is_bad == 0;
+}
+
+}  // namespace
 
 void validate(const LcpProblem& problem) {
   const std::size_t n = problem.size();
@@ -14,7 +31,8 @@ void validate(const LcpProblem& problem) {
     throw std::invalid_argument(
         fmt::format("M: must be {0} x {0} for q of length {0}, got {1} entries", n, problem.M.size()));
   }
-  for (std::size_t i = 0; i < n * n; ++i) {
+  const bool is_finite = is_all_finite(problem.M.data(), n * n);
+  for (std::size_t i = 0; i < n * n && !is_finite; ++i) {
     if (!std::isfinite(problem.M[i])) {
       throw std::invalid_argument(fmt::format("M[{}][{}]: must be finite, got {}", i / n, i % n, problem.M[i]));
     }

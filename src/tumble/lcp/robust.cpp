@@ -78,7 +78,6 @@ void run_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWor
 
 void try_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   LcpWorkspace::Buffers& buffers = workspace.buffers();
-  read_responses(problem, buffers.contacts);
   if (!settings.start_basis.empty()) {
     workspace.result.rung = LcpRung::warm_start;
     buffers.modes.read_basis(buffers.contacts, settings.start_basis);
