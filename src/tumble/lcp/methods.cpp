@@ -22,8 +22,7 @@ const std::array k_methods = {
     LcpMethod{"robust", "a ladder of methods, each checked against M and q; the one to use", RobustSettings{}},
     LcpMethod{"lemke", "Lemke's pivots on a tableau; finds a solution if M is copositive-plus and w >= 0 is possible",
               LemkeSettings{}},
-    LcpMethod{"lemke_lu",
-              "Lemke's pivots on LU factors of the basis; for nearly singular or large problems; can start warm",
+    LcpMethod{"lemke_lu", "Lemke's pivots on LU factors; for nearly singular and for large problems; can start warm",
               LemkeLuSettings{}},
     LcpMethod{"enumerate", "all 2^n bases, n <= 12; the first solution, or proof that there is none",
               EnumerateSettings{}},
@@ -42,6 +41,7 @@ const std::array k_methods = {
 template <class Settings, class Visit>
 void visit_settings(Settings& settings, const Visit& visit) {
   if constexpr (requires { settings.max_pivots; }) visit("max_pivots", settings.max_pivots);
+  if constexpr (requires { settings.max_exchanges; }) visit("max_exchanges", settings.max_exchanges);
   if constexpr (requires { settings.max_iterations; }) visit("max_iterations", settings.max_iterations);
   if constexpr (requires { settings.max_sweeps; }) visit("max_sweeps", settings.max_sweeps);
   if constexpr (requires { settings.relaxation; }) visit("relaxation", settings.relaxation);
