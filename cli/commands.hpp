@@ -53,8 +53,12 @@ struct LcpOptions {
   std::vector<std::string> settings;  // NAME=VALUE
   bool all = false;                   // every solution
   bool trace = false;                 // every pivot
+  bool exact = false;                 // in fractions
   ReportOptions report;
 };
 int run_lcp(const LcpOptions& options);
+
+// The same for options.exact; `text` has been read from `name`.
+int run_lcp_exact(const std::string& text, const std::string& name, const LcpOptions& options);
 
 }  // namespace tumble::cli

@@ -36,9 +36,16 @@ LcpSettings chosen_settings(const LcpOptions& options) {
 
 std::string shown_name(const std::string& file) { return file == "-" ? "standard input" : file; }
 
-LcpProblem read_problem(const std::string& file) {
+std::string read_text(const std::string& file) {
   constexpr std::size_t max_bytes = 200'000'000;  // the largest problem that is read, at 50 bytes a number
-  return parse_lcp(output::read_file(file == "-" ? "/dev/stdin" : file, max_bytes), shown_name(file));
+  return output::read_file(file == "-" ? "/dev/stdin" : file, max_bytes);
+}
+
+LcpProblem read_problem(const std::string& file) { return parse_lcp(read_text(file), shown_name(file)); }
+
+const std::string& only_file(const LcpOptions& options, const char* option) {
+  if (options.files.size() == 1) return options.files.front();
+  throw std::invalid_argument(fmt::format("{}: takes one file, got {}", option, options.files.size()));
 }
 
 LcpReport solve(const std::string& file, const LcpSettings& settings, bool all) {
@@ -67,10 +74,7 @@ int run_one(const LcpOptions& options, const LcpSettings& settings) {
 }
 
 int run_trace(const LcpOptions& options, const LemkeSettings& settings) {
-  if (options.files.size() > 1) {
-    throw std::invalid_argument(fmt::format("--trace: takes one file, got {}", options.files.size()));
-  }
-  const std::string& file = options.files.front();
+  const std::string& file = only_file(options, "--trace");
   const LcpProblem problem = read_problem(file);
   const std::size_t n = problem.size();
   if (n > k_max_trace_size) {
@@ -81,6 +85,11 @@ int run_trace(const LcpOptions& options, const LemkeSettings& settings) {
   const LcpReport report{shown_name(file), n, false, {trace.result}, {}};
   if (!options.report.quiet) fmt::print("{}\n{}", trace_text(trace, n, settings), lcp_text(report));
   return end_of_one(report);
+}
+
+int run_exact(const LcpOptions& options) {
+  const std::string& file = only_file(options, "--exact");
+  return run_lcp_exact(read_text(file), shown_name(file), options);
 }
 
 // A file that cannot be solved does not keep the others from it.
@@ -106,6 +115,7 @@ int run_many(const LcpOptions& options, const LcpSettings& settings) {
 }  // namespace
 
 int run_lcp(const LcpOptions& options) {
+  if (options.exact) return run_exact(options);
   const LcpSettings settings = chosen_settings(options);
   if (options.trace) return run_trace(options, std::get<LemkeSettings>(settings));
   return options.files.size() == 1 ? run_one(options, settings) : run_many(options, settings);

@@ -155,6 +155,13 @@ void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& comma
   CLI::Option* trace = app.add_flag("--trace", options.trace, "Show every pivot of Lemke's method, n <= 8");
   add_report_options(app, options.report);
   trace->excludes(all)->excludes(app.get_option("--json"));
+  app.add_flag(
+         "--exact", options.exact,
+         "Exact arithmetic, where 0.1 and 1/3 mean just that: fractions and proofs, n <= 40; with --all also rays "
+         "and faces, n <= 12")
+      ->excludes("--method")
+      ->excludes("--set")
+      ->excludes(trace);
   app.footer(methods_text());
   app.callback([&] { command = [&] { return run_lcp(options); }; });
 }

@@ -8,7 +8,7 @@ for fuzzer in "$build"/tests/fuzz/fuzz_*; do
   name=$(basename "$fuzzer")
   mkdir -p "$build/corpus/$name"
   case $name in
-    fuzz_lcp_text) printf 'M\n2 1\n1 2\nq\n-1 -1/2\n' >"$build/corpus/$name/seed" ;;
+    fuzz_lcp_text | fuzz_exact_lcp_text) printf 'M\n2 1\n1 2\nq\n-1 -1/2\n' >"$build/corpus/$name/seed" ;;
     fuzz_record_npz) cp tests/output/data/*.npz "$build/corpus/$name/" ;;
   esac
   echo "$name: $seconds s"

@@ -5,6 +5,7 @@
 
 #include "tumble/lcp/problem.hpp"
 #include "tumble/lcp/result.hpp"
+#include "tumble/lcp/solution_face.hpp"
 
 namespace tumble {
 
@@ -25,8 +26,20 @@ inline constexpr std::size_t k_max_enumerate_size = 12;
 std::vector<LcpResult> enumerate_solutions(const LcpProblem& problem, const EnumerateSettings& settings = {});
 
 // The first of `enumerate_solutions`; `pivots` counts the bases tried. Status: solved; no_solution_proved if every
-// basis fails by far more than round-off; numerical if none is a solution, but some is too close to one, or to
-// singular, to tell.
+// basis fails by far more than round-off, or, where one does not, if exact arithmetic finds none either; numerical if
+// the numbers are too long for that, or the exact solution is none in double.
 LcpResult enumerate(const LcpProblem& problem, const EnumerateSettings& settings = {});
+
+// The whole solution set: a union of polyhedra, `faces`, each the hull of its vertices plus the cone of its rays.
+struct SolutionSet {
+  LcpStatus status = LcpStatus::numerical;  // as `enumerate`
+  std::vector<LcpResult> vertices;          // as `enumerate_solutions`
+  std::vector<std::vector<double>> rays;    // directions in z, the largest entry 1
+  std::vector<SolutionFace> faces;          // the largest ones
+};
+
+// As `enumerate_solutions`, with rays and faces. What counts as 0 there is z_i and w_i up to accepted_residual of the
+// scales in residual.hpp. Without tolerances: `exact_solution_set`.
+SolutionSet solution_set(const LcpProblem& problem, const EnumerateSettings& settings = {});
 
 }  // namespace tumble

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "tumble/lcp/rational.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble {
@@ -57,35 +58,42 @@ double number(const std::string& name, const Token& token) {
   return *value;
 }
 
+std::string fraction(const std::string& name, const Token& token) {
+  try {
+    return to_text(parse_rational(token.text, k_max_file_digits));
+  } catch (const std::invalid_argument& error) {
+    refuse(name, token, fmt::format("{}, got {}", error.what(), quoted(token.text)));
+  }
+}
+
 bool is_heading(const std::vector<Token>& line, std::string_view word) {
   return line.size() == 1 && line.front().text == word;
 }
 
-}  // namespace
-
-LcpProblem parse_lcp(std::string_view text, const std::string& name) {
+// M and q of a text; `number_of` reads one word.
+template <class Problem, class NumberOf>
+Problem parse(std::string_view text, const std::string& name, std::size_t max_size, NumberOf number_of) {
   const std::vector<std::vector<Token>> lines = split_lines(text);
   if (lines.empty()) throw std::invalid_argument(fmt::format("{}:1:1: empty, expected a line 'M'", name));
   if (!is_heading(lines.front(), "M")) {
     refuse(name, lines.front().front(),
            fmt::format("expected a line 'M' before the matrix, got {}", quoted(lines.front().front().text)));
   }
-  LcpProblem problem;
+  Problem problem;
   const Token& last = lines.back().back();
   std::size_t n = 0;
   std::size_t at = 1;
   for (; at < lines.size() && !is_heading(lines[at], "q"); ++at) {
     const std::vector<Token>& row = lines[at];
     if (at == 1) n = row.size();
-    if (n > k_max_text_problem_size) {
-      refuse(name, row[k_max_text_problem_size],
-             fmt::format("M: at most {} columns are read, got {}", k_max_text_problem_size, n));
+    if (n > max_size) {
+      refuse(name, row[max_size], fmt::format("M: at most {} columns are read, got {}", max_size, n));
     }
     if (row.size() != n) {
       refuse(name, row.front(), fmt::format("M: row {} must have {} entries like row 1, got {}", at, n, row.size()));
     }
     if (at > n) refuse(name, row.front(), fmt::format("M: must be square, got more than {0} rows of {0}", n));
-    for (const Token& token : row) problem.M.push_back(number(name, token));
+    for (const Token& token : row) problem.M.push_back(number_of(name, token));
   }
   if (at == lines.size()) refuse(name, last, "expected a line 'q' after the matrix");
   if (at - 1 != n || n == 0) {
@@ -94,13 +102,23 @@ LcpProblem parse_lcp(std::string_view text, const std::string& name) {
   for (++at; at < lines.size(); ++at) {
     for (const Token& token : lines[at]) {
       if (problem.q.size() == n) refuse(name, token, fmt::format("q: must have {} entries, got more", n));
-      problem.q.push_back(number(name, token));
+      problem.q.push_back(number_of(name, token));
     }
   }
   if (problem.q.size() != n) {
     refuse(name, last, fmt::format("q: must have {} entries, got {}", n, problem.q.size()));
   }
   return problem;
+}
+
+}  // namespace
+
+LcpProblem parse_lcp(std::string_view text, const std::string& name) {
+  return parse<LcpProblem>(text, name, k_max_text_problem_size, number);
+}
+
+ExactLcp parse_exact_lcp(std::string_view text, const std::string& name) {
+  return parse<ExactLcp>(text, name, k_max_exact_size, fraction);
 }
 
 std::string to_text(const LcpProblem& problem) {

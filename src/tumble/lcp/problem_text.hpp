@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "tumble/lcp/exact.hpp"
 #include "tumble/lcp/problem.hpp"
 
 namespace tumble {
@@ -24,7 +25,11 @@ inline constexpr std::size_t k_max_text_problem_size = 2000;
 // `name` stands for the text in those messages, usually the file's name.
 LcpProblem parse_lcp(std::string_view text, const std::string& name = "lcp");
 
-// The same form, each number in the shortest decimal that reads back to the same bits.
+// The same text, every number meaning exactly what it says: 0.1 is 1/10. n is at most k_max_exact_size; a decimal has
+// at most 1000 digits, and an exponent within +-1000.
+ExactLcp parse_exact_lcp(std::string_view text, const std::string& name = "lcp");
+
+// The form of `parse_lcp`, each number in the shortest decimal that reads back to the same bits.
 std::string to_text(const LcpProblem& problem);
 
 }  // namespace tumble

@@ -1,0 +1,118 @@
+// `tumble lcp --exact`: rational arithmetic from the text to the answer.
+#include "commands.hpp"
+#include "lcp_report.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "tumble/lcp/exact.hpp"
+#include "tumble/lcp/problem_text.hpp"
+
+namespace tumble::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Fractions = std::vector<std::string>;
+
+// One solution, or the strongest statement why there is none.
+ExactResult solve_exactly(const ExactLcp& problem) {
+  ExactResult result = exact_lemke(problem);
+  if (result.status != LcpStatus::ray_unproven || problem.size() > k_max_exact_enumerate_size) return result;
+  ExactSolutionSet set = exact_solution_set(problem);
+  if (!set.vertices.empty()) return set.vertices.front();
+  if (set.status == LcpStatus::no_solution_proved) {
+    result.status = set.status;
+    result.certificate.clear();
+  }
+  return result;
+}
+
+// Fractions, and the nearest doubles on a line of their own where they say more.
+std::string lines(std::string_view name, const Fractions& numbers) {
+  std::string text = fmt::format("{:<18}{}\n", name, fmt::join(numbers, " "));
+  bool has_fraction = false;
+  for (const std::string& number : numbers) has_fraction = has_fraction || number.find('/') != std::string::npos;
+  if (has_fraction) text += fmt::format("{:<18}{}\n", "", fmt::join(as_doubles(numbers), " "));
+  return text;
+}
+
+std::string solution_text(const ExactResult& solution) {
+  return lines("z", solution.z) + lines("w", solution.w) +
+         fmt::format("{:<18}{}\n", "basis", basis_text(solution.basis));
+}
+
+std::string certificate_text(LcpStatus status, const Fractions& certificate) {
+  if (certificate.empty()) return "";
+  return status == LcpStatus::infeasible ? lines("y", certificate) + "                  y >= 0, M'y <= 0, q.y < 0\n"
+                                         : lines("ray", certificate);
+}
+
+std::string exact_text(const ExactResult& result) {
+  std::string text = fmt::format("status            {}\n", to_string(result.status));
+  if (!result.z.empty()) text += solution_text(result);
+  return text + certificate_text(result.status, result.certificate);
+}
+
+std::string exact_text(const ExactLcp& problem, const ExactSolutionSet& set) {
+  const auto count = [](std::size_t number, const char* what) {
+    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+  };
+  std::string text = fmt::format("{}, {}, {} of the LCP with n = {}\nstatus            {}\n",
+                                 count(set.vertices.size(), "vertex solution"), count(set.rays.size(), "ray"),
+                                 count(set.faces.size(), "face"), problem.size(), to_string(set.status));
+  for (std::size_t v = 0; v < set.vertices.size(); ++v) {
+    text += fmt::format("\nvertex            {}\n{}", v, solution_text(set.vertices[v]));
+  }
+  for (std::size_t r = 0; r < set.rays.size(); ++r)
+    text += fmt::format("\nray               {}\n{}", r, lines("z", set.rays[r]));
+  if (!set.faces.empty()) text += "\n";
+  for (std::size_t f = 0; f < set.faces.size(); ++f) {
+    text += fmt::format("face              {}: vertices {}", f, fmt::join(set.faces[f].vertices, " "));
+    text += set.faces[f].rays.empty() ? "\n" : fmt::format(", rays {}\n", fmt::join(set.faces[f].rays, " "));
+  }
+  return text + certificate_text(set.status, set.certificate);
+}
+
+Json json_of(const ExactResult& result) {
+  const std::vector<bool> basis(result.basis.begin(), result.basis.end());
+  Json report = {
+      {"status", to_string(result.status)}, {"z", result.z}, {"w", result.w}, {"z_decimal", as_doubles(result.z)},
+      {"w_decimal", as_doubles(result.w)},  {"basis", basis}};
+  if (!result.certificate.empty()) report["certificate"] = result.certificate;
+  return report;
+}
+
+Json json_of(const ExactLcp& problem, const ExactSolutionSet& set) {
+  Json vertices = Json::array(), faces = Json::array();
+  for (const ExactResult& vertex : set.vertices) vertices.push_back(json_of(vertex));
+  for (const SolutionFace& face : set.faces) faces.push_back({{"vertices", face.vertices}, {"rays", face.rays}});
+  Json report = {{"n", problem.size()},
+                 {"status", to_string(set.status)},
+                 {"solutions", vertices},
+                 {"rays", set.rays},
+                 {"faces", faces}};
+  if (!set.certificate.empty()) report["certificate"] = set.certificate;
+  return report;
+}
+
+}  // namespace
+
+int run_lcp_exact(const std::string& text, const std::string& name, const LcpOptions& options) {
+  const ExactLcp problem = parse_exact_lcp(text, name);
+  LcpStatus status = LcpStatus::numerical;
+  std::string report;
+  if (options.all) {
+    const ExactSolutionSet set = exact_solution_set(problem);
+    status = set.status;
+    report = options.report.json ? json_of(problem, set).dump(2) + "\n" : exact_text(problem, set);
+  } else {
+    const ExactResult result = solve_exactly(problem);
+    status = result.status;
+    report = options.report.json ? json_of(result).dump(2) + "\n" : exact_text(result);
+  }
+  if (!options.report.quiet) fmt::print("{}", report);
+  if (status == LcpStatus::solved) return k_done;
+  return report_failure(fmt::format("no solution found: status {}", to_string(status)), k_numerical_failure);
+}
+
+}  // namespace tumble::cli
