@@ -52,8 +52,8 @@ struct LcpOptions {
   std::string method;                 // empty: the one that fits the other options
   std::vector<std::string> settings;  // NAME=VALUE
   bool all = false;                   // every solution
+  bool exact = false;                 // fractions
   bool trace = false;                 // every pivot
-  bool exact = false;                 // in fractions
   ReportOptions report;
 };
 int run_lcp(const LcpOptions& options);

@@ -17,6 +17,8 @@
 
 #include "tumble/lcp/methods.hpp"
 
+#include "tumble/output/file.hpp"
+
 namespace tumble::cli {
 namespace {
 
@@ -31,6 +33,7 @@ const std::map<std::string, std::string> k_option_of_field = {{"l", "--side"},
                                                               {"g", "--gravity"},
                                                               {"columns", "--steps + 1"},
                                                               {"m, l", "--mass, --side"},
+                                                              {"q0, v0", "--q0, --v0"},
                                                               {"width", "--width"},
                                                               {"height", "--height"},
                                                               {"speed", "--speed"},
@@ -152,21 +155,27 @@ void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& comma
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   CLI::Option* all = app.add_flag("--all", options.all, "Every vertex solution, by enumeration, n <= 12");
+  CLI::Option* exact = app.add_flag(
+      "--exact", options.exact,
+      "Exact arithmetic, where 0.1 and 1/3 mean just that: fractions and proofs, n <= 40; with --all also rays and "
+      "faces, n <= 12");
+  exact->excludes("--method")->excludes("--set");
   CLI::Option* trace = app.add_flag("--trace", options.trace, "Show every pivot of Lemke's method, n <= 8");
   add_report_options(app, options.report);
-  trace->excludes(all)->excludes(app.get_option("--json"));
-  app.add_flag(
-         "--exact", options.exact,
-         "Exact arithmetic, where 0.1 and 1/3 mean just that: fractions and proofs, n <= 40; with --all also rays "
-         "and faces, n <= 12")
-      ->excludes("--method")
-      ->excludes("--set")
-      ->excludes(trace);
+  trace->excludes(all)->excludes(exact)->excludes(app.get_option("--json"));
   app.footer(methods_text());
   app.callback([&] { command = [&] { return run_lcp(options); }; });
 }
 
 int fail(const std::string& message) { return report_failure(message, k_bad_input); }
+
+// CLI11 would say that a command is missing and leave out that it does not know the word.
+void require_command(const CLI::App& program, const std::string& word) {
+  const auto commands = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
+  if (commands.empty() && !word.starts_with('-')) {
+    throw std::invalid_argument(fmt::format("there is no command '{}'; there are drop, render and lcp", word));
+  }
+}
 
 int run(int argc, char** argv) {
   CLI::App program("Tumble: rigid bodies in the plane under frictional contact.", "tumble");
@@ -185,6 +194,7 @@ int run(int argc, char** argv) {
   add_lcp(program, lcp_options, command);
 
   try {
+    if (argc > 1) require_command(program, argv[1]);
     program.parse(argc, argv);
     const int exit_code = command();
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("standard output could not be written");
@@ -202,7 +212,7 @@ int run(int argc, char** argv) {
 
 int report_failure(const std::string& message, int exit_code) {
   std::fflush(stdout);
-  fmt::print(stderr, "tumble: {}\n", message);
+  fmt::print(stderr, "tumble: {}\n", output::path_text(message));  // words of the user may hold anything
   return exit_code;
 }
 

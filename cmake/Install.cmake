@@ -1,8 +1,15 @@
-# Installs the core: find_package(tumble) gives tumble::tumble, pkg-config gives tumble. It depends on nothing.
+# Installs the libraries. find_package(tumble) gives tumble::tumble, which depends on nothing, and tumble::output if what
+# it links (cairo, giflib, zlib, HDF5) is found; pkg-config gives tumble.
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tumble)
 install(TARGETS tumble EXPORT tumbleTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tumble)
 install(EXPORT tumbleTargets NAMESPACE tumble:: DESTINATION ${package_dir})
+if(TUMBLE_BUILD_OUTPUT)
+  get_target_property(tumble_output_links tumble_output LINK_LIBRARIES)
+  install(TARGETS tumble_output EXPORT tumbleOutputTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT tumbleOutputTargets NAMESPACE tumble:: DESTINATION ${package_dir})
+endif()
 configure_package_config_file(cmake/tumbleConfig.cmake.in tumbleConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(tumbleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tumbleConfig.cmake ${PROJECT_BINARY_DIR}/tumbleConfigVersion.cmake

@@ -1,5 +1,5 @@
 #!/bin/sh
-# fuzz.sh BUILD SECONDS: run every fuzzer of a fuzz build for that long, two at a time; inputs found stay in BUILD/corpus.
+# fuzz.sh BUILD SECONDS: run every fuzzer of a fuzz build for that long, one after the other; inputs found stay in BUILD/corpus.
 set -eu
 build=$1; seconds=$2
 failed=0

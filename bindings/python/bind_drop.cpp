@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "convert.hpp"
 #include <fmt/format.h>
@@ -42,6 +44,12 @@ py::dict as_dict(const Parameters& p) {
                   "g"_a = p.g, "columns"_a = p.columns);
 }
 
+const Parameters& as_parameters(const py::handle& object) {
+  if (py::isinstance<Parameters>(object)) return object.cast<const Parameters&>();
+  const std::string type = py::str(py::type::handle_of(object).attr("__name__"));
+  throw py::type_error(fmt::format("params: must be a tumble.drop.Parameters, got {}", type));
+}
+
 drop::Jacobian as_jacobian(const py::handle& object) {
   const Array J = as_array(object, "J", {3, 2});
   drop::Jacobian jacobian;
@@ -52,13 +60,15 @@ drop::Jacobian as_jacobian(const py::handle& object) {
   return jacobian;
 }
 
-py::tuple get_contacts(const py::handle& q, const Parameters& parameters) {
+py::tuple get_contacts(const py::handle& q, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const auto [J, phi] = drop::get_contacts(as_vector3(q, "q"), parameters);
   const std::array<double, 6> rows = {J.t[0], J.n[0], J.t[1], J.n[1], J.t[2], J.n[2]};
   return py::make_tuple(to_numpy(rows, 3, 2), phi);
 }
 
-py::tuple form_lcp(const py::handle& J, const py::handle& v, const Parameters& parameters) {
+py::tuple form_lcp(const py::handle& J, const py::handle& v, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const auto [V, p] = drop::form_lcp(as_jacobian(J), as_vector3(v, "v"), parameters);
   return py::make_tuple(to_numpy(std::span(V[0].data(), 16), 4, 4), to_numpy(p));
 }
@@ -73,7 +83,8 @@ py::array_t<double> solve_LCP(const py::handle& V, const py::handle& p) {
   return to_numpy(drop::solve_LCP(rows, right));
 }
 
-py::tuple step(const py::handle& q, const py::handle& v, const Parameters& parameters) {
+py::tuple step(const py::handle& q, const py::handle& v, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const auto [q_next, v_next] = drop::step(as_vector3(q, "q"), as_vector3(v, "v"), parameters);
   return py::make_tuple(to_numpy(q_next), to_numpy(v_next));
 }
@@ -87,14 +98,53 @@ void require_complete(const drop::Trajectory& trajectory, const Parameters& para
       trajectory.status);
 }
 
-py::tuple simulate(const py::handle& q0, const py::handle& v0, const Parameters& parameters) {
-  const Vector3 q = as_vector3(q0, "q0");
-  const Vector3 v = as_vector3(v0, "v0");
-  drop::Trajectory trajectory;
-  {
-    const py::gil_scoped_release without_gil;
-    trajectory = drop::simulate(q, v, parameters);
+// One trajectory of pieces that each begin with the last column of the one before.
+drop::Trajectory join(const std::vector<drop::Trajectory>& pieces, int columns) {
+  const auto stride = static_cast<std::size_t>(columns);
+  drop::Trajectory whole{columns, std::vector<double>(3 * stride), std::vector<double>(3 * stride),
+                         pieces.back().status};
+  std::size_t start = 0;
+  for (const drop::Trajectory& piece : pieces) {
+    const auto length = static_cast<std::size_t>(piece.columns);
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::copy_n(&piece.q[i * length], length, &whole.q[i * stride + start]);
+      std::copy_n(&piece.v[i * length], length, &whole.v[i * stride + start]);
+    }
+    start += length - 1;
   }
+  return whole;
+}
+
+// A long run in pieces, so that Ctrl-C is noticed between them; `simulate(q, v, parameters)` runs one. A step depends
+// on its state alone, so the numbers are those of a run in one piece.
+template <class Simulate>
+drop::Trajectory simulate_in_pieces(Vector3 q, Vector3 v, const Parameters& parameters, Simulate simulate) {
+  constexpr int k_piece = 100'000;  // columns, some milliseconds
+  const auto run = [&](int columns) {
+    const py::gil_scoped_release without_gil;
+    Parameters piece = parameters;
+    piece.columns = columns;
+    return simulate(q, v, piece);
+  };
+  drop::Trajectory first = run(std::min(parameters.columns, k_piece));
+  int columns = first.columns;
+  if (columns == parameters.columns || first.status != LcpStatus::solved) return first;
+  std::vector<drop::Trajectory> pieces;
+  pieces.push_back(std::move(first));
+  while (columns < parameters.columns && pieces.back().status == LcpStatus::solved) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    q = pieces.back().q_at(pieces.back().columns - 1);
+    v = pieces.back().v_at(pieces.back().columns - 1);
+    pieces.push_back(run(std::min(parameters.columns - columns + 1, k_piece)));
+    columns += pieces.back().columns - 1;
+  }
+  return join(pieces, columns);
+}
+
+py::tuple simulate(const py::handle& q0, const py::handle& v0, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
+  const drop::Trajectory trajectory =
+      simulate_in_pieces(as_vector3(q0, "q0"), as_vector3(v0, "v0"), parameters, &drop::simulate);
   require_complete(trajectory, parameters);
   return py::make_tuple(to_numpy(trajectory.q, 3, trajectory.columns), to_numpy(trajectory.v, 3, trajectory.columns));
 }
@@ -113,8 +163,17 @@ py::list collect_names(const drop::Record& record, Field field) {
   return names;
 }
 
-py::dict simulate_with_record(const py::handle& q0, const py::handle& v0, const Parameters& parameters) {
-  const drop::Record record = drop::simulate_with_record(as_vector3(q0, "q0"), as_vector3(v0, "v0"), parameters);
+py::dict simulate_with_record(const py::handle& q0, const py::handle& v0, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
+  drop::Record record;
+  record.trajectory =
+      simulate_in_pieces(as_vector3(q0, "q0"), as_vector3(v0, "v0"), parameters,
+                         [&record](const Vector3& q, const Vector3& v, const Parameters& piece_parameters) {
+                           drop::Record piece = drop::simulate_with_record(q, v, piece_parameters);
+                           if (!record.steps.empty()) record.steps.pop_back();  // the first of this piece says the same
+                           record.steps.insert(record.steps.end(), piece.steps.begin(), piece.steps.end());
+                           return std::move(piece.trajectory);
+                         });
   const drop::Trajectory& trajectory = record.trajectory;
   const int columns = trajectory.columns;
   py::array_t<double> t(columns);
@@ -139,7 +198,8 @@ py::dict simulate_with_record(const py::handle& q0, const py::handle& v0, const 
                   "kinetic"_a = kinetic, "potential"_a = potential);
 }
 
-py::array_t<double> corner_positions(const py::handle& q, const Parameters& parameters) {
+py::array_t<double> corner_positions(const py::handle& q, const py::handle& params) {
+  const Parameters& parameters = as_parameters(params);
   const auto corners = drop::corner_positions(as_vector3(q, "q"), parameters);
   return to_numpy(std::span(corners[0].data(), 8), 4, 2);
 }

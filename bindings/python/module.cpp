@@ -19,10 +19,24 @@ std::string shape_text(const py::ssize_t* shape, std::size_t num_dimensions) {
   return text + ")";
 }
 
+bool is_plain_array(const py::handle& object) {
+  return Py_TYPE(object.ptr()) == py::detail::npy_api::get().PyArray_Type_;
+}
+
+// The numbers under a mask mean nothing, and no function here can leave them out.
+void refuse_mask(const py::handle& object, const char* name) {
+  static const py::object masked_array = py::module_::import("numpy.ma").attr("MaskedArray").cast<py::object>();
+  if (!py::isinstance(object, masked_array)) return;
+  const auto masked = py::module_::import("numpy.ma").attr("count_masked")(object).cast<py::ssize_t>();
+  if (masked == 0) return;
+  throw std::invalid_argument(fmt::format("{}: must have no masked entry, got {}", name, masked));
+}
+
 }  // namespace
 
 Array as_array(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape) {
   Array array;
+  if (!is_plain_array(object)) refuse_mask(object, name);
   if (py::isinstance<Array>(object)) {  // float64 and contiguous: nothing to convert
     array = py::reinterpret_borrow<Array>(object);
   } else {

@@ -129,6 +129,16 @@ def test_speed_stretches_the_animation(tmp_path: Path) -> None:
     assert Image.open(tmp_path / "b.gif").n_frames > 1.8 * Image.open(tmp_path / "a.gif").n_frames
 
 
+def test_an_unknown_command_is_named(tmp_path: Path) -> None:
+    assert "there is no command 'fall'; there are drop, render and lcp" in refuse("fall", cwd=tmp_path)
+    assert "there is no command 'a?b'" in refuse("a\nb", cwd=tmp_path)
+
+
+def test_a_named_pipe_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.gif")
+    assert "pipe.gif: is a named pipe" in refuse("drop", "--force", "-o", "pipe.gif", cwd=tmp_path)
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -226,9 +236,9 @@ def test_truncated_and_foreign_files_are_refused_by_name(tmp_path: Path, ending:
 
 
 def test_a_run_beyond_double_is_a_numerical_failure(tmp_path: Path) -> None:
-    run = tumble("drop", "--v0", "1e308,0,0", "--step", "1", cwd=tmp_path)
+    run = tumble("drop", "--v0", "1e150,0,0", "--step", "1e158", "--gravity", "0", cwd=tmp_path)
     assert run.returncode == 3 and "step 2 of 149" in run.stdout and "nan" not in run.stdout
-    run = tumble("drop", "--v0", "1e308,0,0", "--step", "1", "--quiet", cwd=tmp_path)
+    run = tumble("drop", "--v0", "1e150,0,0", "--step", "1e158", "--gravity", "0", "--quiet", cwd=tmp_path)
     assert run.returncode == 3 and run.stdout == "" and "step 2 of 149 left the range of double" in run.stderr
 
 

@@ -58,13 +58,26 @@ TEST(Record, HoldsTheTrajectoryAndOneStepPerColumn) {
 }
 
 TEST(Record, StopsWhereTheNumbersLeaveTheRangeOfDouble) {
-  const Record record = simulate_with_record({0, 1, 0}, {1e308, 0, 0}, {.dt = 1.0, .columns = 50});
+  const Record record = simulate_with_record({0, 1, 0}, {1e150, 0, 0}, {.dt = 1e158, .g = 0.0, .columns = 50});
   EXPECT_EQ(record.trajectory.status, LcpStatus::numerical);
   EXPECT_EQ(record.trajectory.columns, 2);  // the second step would reach 2e308
   EXPECT_EQ(record.steps.size(), 2u);
   EXPECT_EQ(record.steps.back().status, LcpStatus::numerical);
   EXPECT_EQ(record.trajectory.q.size(), 6u);
-  EXPECT_EQ(record.trajectory.q_at(1)[0], 1e308);
+  EXPECT_EQ(record.trajectory.q_at(1)[0], 1e150 * 1e158);
+}
+
+// The speed grows by 1e154 m/s each step: within two steps its square leaves the range of double.
+TEST(Record, StopsWhereAnEnergyLeavesTheRangeOfDouble) {
+  const Parameters parameters{.m = 1.5, .dt = 1.0, .g = -1e154, .columns = 50};
+  const Record record = simulate_with_record({0, 1, 0}, {0, 0, 0}, parameters);
+  EXPECT_EQ(record.trajectory.status, LcpStatus::numerical);
+  EXPECT_EQ(record.trajectory.columns, 2);  // 0.75 kg (1e154 m/s)^2 is in range, four times that is not
+  EXPECT_EQ(record.steps.size(), 2u);
+  EXPECT_TRUE(std::isfinite(kinetic_energy(record.trajectory.v_at(1), parameters)));
+  EXPECT_THROW(simulate_with_record({0, 1, 0}, {0, 2e154, 0}, parameters), std::invalid_argument);
+  EXPECT_THROW(simulate_with_record({0, 1e160, 0}, {0, 0, 0}, parameters), std::invalid_argument);
+  EXPECT_EQ(simulate({0, 1, 0}, {0, 2e154, 0}).columns, 150);  // states have no energies
 }
 
 }  // namespace

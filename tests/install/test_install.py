@@ -37,6 +37,25 @@ def test_find_package(prefix: Path, tmp_path: Path) -> None:
     run("cmake", "-S", CONSUMER, "-B", tmp_path, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", tmp_path)
     check_output(run(tmp_path / "consumer"))
+    files = [tmp_path / f"drop.{ending}" for ending in ("csv", "npz", "h5", "png", "svg", "gif")]
+    run(tmp_path / "output_consumer", *files)
+    q, _ = drop.simulate(*COURSE_START)
+    assert np.array_equal(np.load(tmp_path / "drop.npz")["q"], q)
+    assert all(file.stat().st_size > 1000 for file in files)
+
+
+def test_find_package_without_cairo_gives_the_core(prefix: Path, tmp_path: Path) -> None:
+    """A machine without the libraries of tumble::output: the core is found, the component is not."""
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+        "find_package(tumble REQUIRED)\nif(NOT TARGET tumble::tumble OR TARGET tumble::output)\n"
+        "  message(FATAL_ERROR wrong)\nendif()\n"
+        "find_package(tumble COMPONENTS output)\nif(tumble_FOUND)\n  message(FATAL_ERROR wrong)\nendif()\n"
+    )
+    run(
+        *("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}"),
+        "-DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON",
+    )
 
 
 def test_find_package_refuses_another_minor_version(prefix: Path, tmp_path: Path) -> None:

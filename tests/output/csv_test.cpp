@@ -37,7 +37,7 @@ TEST(Csv, ReadsBackParametersAndStatesAtTheEndsOfTheRange) {
   parameters.g = -0.0;
   parameters.columns = 3;
   const drop::Record record =
-      drop::simulate_with_record({-0.0, 1e300, 1e-310}, {5e-324, -1e280, 1.0 / 3.0}, parameters);
+      drop::simulate_with_record({-0.0, 1e300, 1e-310}, {5e-324, -1e150, 1.0 / 3.0}, parameters);
   const drop::Record read = parse_record_csv(to_csv(record), "run.csv");
   test::expect_same(read, record);
   EXPECT_TRUE(test::same_bits(read.parameters.g, -0.0));

@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace tumble::output {
@@ -106,6 +107,45 @@ TEST(File, DevicesAreWrittenToDirectly) {
   const std::string text = message_of<std::system_error>([] { write_file_atomically("/dev/full", "x", false); });
   EXPECT_EQ(text, "cannot write /dev/full: No space left on device");
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+// Opening a named pipe would wait for somebody to read it.
+TEST(File, ANamedPipeOrSocketIsRefused) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe.csv").c_str(), 0600), 0);
+  fs::create_symlink("pipe.csv", folder / "link.csv");
+  for (const char* name : {"pipe.csv", "link.csv"}) {
+    for (const bool overwrite : {false, true}) {
+      const std::string text =
+          message_of<std::invalid_argument>([&] { write_file_atomically(folder / name, "x", overwrite); });
+      EXPECT_TRUE(has(text, "is a named pipe, a socket or a block device")) << text;
+    }
+  }
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe.csv"));
+  EXPECT_EQ(folder.count_files(), 2u);
+}
+
+// Killed in the middle of the writing, by a signal that leaves no time to clean up.
+TEST(File, AKilledProcessLeavesNothing) {
+  const TemporaryFolder folder;
+  const int probe = ::open(folder.path().c_str(), O_TMPFILE | O_RDWR, 0600);
+  if (probe < 0) GTEST_SKIP() << "the file system of the temporary folder has no files without a name";
+  ::close(probe);
+  write_file_atomically(folder / "old.csv", "old", false);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    OutputFile replaced(folder / "old.csv", true);
+    OutputFile made(folder / "new.csv", false);
+    replaced.write("half");
+    made.write("half");
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(content(folder / "old.csv"), "old");
+  EXPECT_EQ(folder.count_files(), 1u);
 }
 
 TEST(File, APipeIsWrittenToAndItsEndIsAnError) {

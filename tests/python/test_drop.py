@@ -97,6 +97,10 @@ def test_a_matrix_may_be_in_any_order() -> None:
         (lambda: drop.step(Q0, [0.0, 0.0, np.inf]), r"v\[2\]: must be finite, got inf"),
         (lambda: drop.form_lcp(np.zeros((2, 3)), V0), r"J: must have shape \(3, 2\), got \(2, 3\)"),
         (lambda: drop.form_lcp(np.full((3, 2), np.nan), V0), "J_t"),
+        (lambda: drop.get_contacts(np.ma.array(Q0, mask=[0, 1, 0])), "q: must have no masked entry, got 1"),
+        (lambda: drop.simulate(Q0, np.ma.array([0, 1, 2], mask=True)), "v0: must have no masked entry, got 3"),
+        (lambda: drop.render(np.ma.array(np.ones((3, 2)), mask=[[0, 0], [0, 1], [0, 0]])), "q: must have no masked entry, got 1"),
+        (lambda: drop.record([0.0, 1.0, 0.0], [0.0, 1e200, 0.0]), "q0, v0: the kinetic and the potential energy must be finite"),
         (lambda: drop.solve_LCP(np.eye(3), np.zeros(4)), r"V: must have shape \(4, 4\), got \(3, 3\)"),
         (lambda: drop.solve_LCP(np.eye(4), np.zeros(3)), r"p: must have shape \(4,\), got \(3,\)"),
         (lambda: drop.solve_LCP(np.full((4, 4), np.nan), np.zeros(4)), r"M\[0\]\[0\]: must be finite"),
@@ -124,6 +128,16 @@ def test_unknown_parameters_are_refused() -> None:
         Parameters(0.4)
 
 
+@pytest.mark.parametrize("params", [None, {"l": 0.4}, 0.4])
+def test_other_things_than_parameters_are_refused_in_one_line(params) -> None:
+    message = f"^params: must be a tumble.drop.Parameters, got {type(params).__name__}$"
+    for call in (drop.step, drop.simulate, drop.record):
+        with pytest.raises(TypeError, match=message):
+            call(Q0, V0, params=params)
+    with pytest.raises(TypeError, match=message):
+        drop.get_contacts(Q0, params)
+
+
 def test_parameters_are_values() -> None:
     a = Parameters(l=0.4, mu=0.5)
     assert a == Parameters(l=0.4, mu=0.5) and hash(a) == hash(Parameters(l=0.4, mu=0.5)) and a != Parameters()
@@ -141,10 +155,66 @@ def test_a_problem_without_solution_raises_with_its_status() -> None:
 
 
 def test_a_run_beyond_double_raises_and_says_where() -> None:
+    params = Parameters(dt=1e158, g=0.0, columns=50)
     with pytest.raises(NoSolution, match="step 2 of 49"):
-        drop.simulate([0.0, 1.0, 0.0], [1e308, 0.0, 0.0], params=Parameters(dt=1.0, columns=50))
-    record = drop.record([0.0, 1.0, 0.0], [1e308, 0.0, 0.0], params=Parameters(dt=1.0, columns=50))
+        drop.simulate([0.0, 1.0, 0.0], [1e150, 0.0, 0.0], params=params)
+    record = drop.record([0.0, 1.0, 0.0], [1e150, 0.0, 0.0], params=params)
     assert record.status == ["solved", "numerical"] and record.q.shape == (3, 2)
+
+
+def test_energies_of_a_record_are_finite() -> None:
+    """The speed grows until its square leaves the range of double; the state itself is finite for longer."""
+    params = Parameters(g=-1e153, dt=1.0, columns=100)
+    record = drop.record([0.0, 1e3, 0.0], [0.0, 0.0, 0.0], params=params)
+    assert record.status[-1] == "numerical" and set(record.status[:-1]) == {"solved"} and record.q.shape[1] > 10
+    assert np.isfinite(record.kinetic).all() and np.isfinite(record.potential).all()
+
+
+def test_masked_arrays_without_a_masked_entry_are_arrays() -> None:
+    assert np.array_equal(drop.step(np.ma.array(Q0), np.ma.array(V0, mask=False))[0], drop.step(Q0, V0)[0])
+
+
+def test_long_runs_are_made_of_the_same_steps() -> None:
+    """Longer than the pieces in which Python runs are made; the step is taken from every boundary once more."""
+    params = Parameters(dt=1e-4, columns=250_123)
+    q, v = drop.simulate(Q0, V0, params=params)
+    record = drop.record(Q0, V0, params=params)
+    assert q.shape == (3, 250_123) and np.array_equal(record.q, q) and np.array_equal(record.v, v)
+    assert len(record.status) == len(record.mode) == 250_123
+    for k in [*range(99_990, 100_010), *range(199_990, 200_010), 250_121]:
+        q1, v1 = drop.step(q[:, k], v[:, k], params=params)
+        assert np.array_equal(q[:, k + 1], q1) and np.array_equal(v[:, k + 1], v1)
+        assert record.gap[k] == drop.get_contacts(q[:, k], params)[1]
+
+
+def test_a_long_run_that_fails_late_says_where() -> None:
+    """Free flight upwards: the height passes 1.8e308 at a known step, far behind the first piece."""
+    params = Parameters(g=0.0, dt=1.0, columns=300_000)
+    with pytest.raises(NoSolution, match="step 179770 of 299999"):
+        drop.simulate([0.0, 1.0, 0.0], [0.0, 1e303, 0.0], params=params)
+
+
+@pytest.mark.parametrize("function", ["simulate", "record"])
+def test_a_long_run_can_be_interrupted(function: str) -> None:
+    """A handler that is called while the run goes on, and ends it at its fifth call."""
+    code = (
+        "import signal\n"
+        "from tumble import drop\n"
+        "calls = []\n"
+        "def handler(*_):\n"
+        "    calls.append(1)\n"
+        "    if len(calls) == 5: raise KeyboardInterrupt\n"
+        "params = drop.Parameters(columns=10_000_000)\n"
+        "signal.signal(signal.SIGPROF, handler)\n"
+        "signal.setitimer(signal.ITIMER_PROF, 0.01, 0.01)\n"
+        "try:\n"
+        f"    drop.{function}([0, 1, 0.5], [0, 0, 0], params=params)\n"
+        "except KeyboardInterrupt:\n"
+        "    signal.setitimer(signal.ITIMER_PROF, 0)\n"
+        "    print('interrupted')\n"
+    )
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert result.stdout == "interrupted\n", result.stderr
 
 
 def test_record_holds_what_happened() -> None:

@@ -49,7 +49,7 @@ def graded(folder, name, text, **options):
 
 def words(grade):
     return " | ".join(
-        [grade.problem, *grade.notes, *(m for part in grade.parts for m in [*part.mistakes, *part.notes])]
+        [grade.problem, *grade.doubts, *grade.notes, *(m for part in grade.parts for m in [*part.mistakes, *part.notes])]
     )
 
 
@@ -228,7 +228,7 @@ def test_nothing_is_left_behind(tmp_path, monkeypatch):
 
 def test_a_solution_that_asks_tumble_is_noted(tmp_path):
     text = changed(("import numpy as np\n", "import numpy as np\nfrom tumble.drop import step as solved\n"))
-    assert "imports tumble" in " ".join(graded(tmp_path, "copied.py", text).notes)
+    assert "imports tumble" in " ".join(graded(tmp_path, "copied.py", text).doubts)
 
 
 def test_printing_a_score_changes_nothing(tmp_path, capfd):
@@ -490,7 +490,52 @@ def test_a_parameter_of_zero_is_said_to_hide_mistakes(tmp_path, name):
     text = (SUBMISSIONS / "documented_names.py").read_text()
     path.write_text(re.sub(rf"(?m)^{name} = .*$", f"{name} = 0.0", text))
     assert f"{name} = 0.0" in path.read_text()
-    assert any(f"{name} = 0 in this file" in note for note in grade_file(path).notes)
+    assert any(f"{name} = 0 in this file" in doubt for doubt in grade_file(path).doubts)
+
+
+def test_doubts_stand_in_the_table(tmp_path):
+    (tmp_path / "a.py").write_text(changed(("\nmu = 0.3\n", "\nmu = 0\n")))
+    grades = grade_folder(tmp_path)
+    assert "doubt: mu = 0 in this file" in as_table(grades).splitlines()[1]
+    assert "mu = 0 in this file" in next(csv.DictReader(as_csv(grades).splitlines()))["doubts"]
+    assert "mu = 0 in this file" in as_json(grades[0])["doubts"][0]
+
+
+# ---- numbers of single precision, and none ----
+
+SINGLE = {
+    "contacts": (("    return J, phi", "    return J.astype(np.float32), np.float32(phi)"),),
+    "contacts_inside": (("    theta = q[2]", "    q = np.float32(q); theta = q[2]"),),
+    "lcp": (("    return V, p", "    return np.float32(V), np.float32(p)"),),
+    "step": (("    return q_next, v_next", "    return np.float32(q_next), np.float32(v_next)"),),
+    "simulate": (("zeros((3, num_columns))", "zeros((3, num_columns), dtype=np.float32)"),),
+}
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_single_precision_is_named_and_costs_nothing(tmp_path, name):
+    grade = graded(tmp_path, f"{name}.py", changed(*SINGLE[name]))
+    assert grade.points == 100.0, as_text(grade)
+    assert sum("single precision" in note for part in grade.parts for note in part.notes) == 1
+
+
+def test_a_mistake_in_single_precision_is_named_as_without(tmp_path):
+    text = changed(*SINGLE["contacts"], ("-r[1, k]", "r[1, k]"))
+    part = graded(tmp_path, "both.py", text).parts[0]
+    assert part.points == 21.0 and len(part.mistakes) == 1 and "J_t has the wrong sign" in part.mistakes[0]
+
+
+@pytest.mark.parametrize(
+    ("part", "result"),
+    [(1, "    return J, phi"), (2, "    return V, p"), (3, "    return q_next, v_next"), (4, "    return q, v\n")],
+)
+def test_nan_gets_no_points_and_one_line(tmp_path, part, result):
+    a, b = result.strip().removeprefix("return ").split(", ")
+    grade = graded(tmp_path, "nan.py", changed((result, f"    return {a} * np.nan, {b} * np.nan\n")))
+    assert [p.number for p in grade.parts if p.points < p.maximum] == [part]
+    assert grade.parts[part - 1].points == 0.0
+    (mistake,) = grade.parts[part - 1].mistakes
+    assert mistake.startswith("returns nan or infinity in ")
 
 
 def test_odd_file_names_do_not_cost_the_table(tmp_path):

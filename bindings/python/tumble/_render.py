@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -49,7 +50,7 @@ def render(
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity, or an unknown ending.
+        For a wrong shape, NaN, infinity or a masked entry, an unknown ending, or a file that cannot be written.
     """
     params = Parameters() if params is None else params
     poses = _as_poses(q)
@@ -75,6 +76,8 @@ def render(
 
 
 def _as_poses(q: ArrayLike) -> NDArray[np.float64]:
+    if (masked := int(np.sum(np.ma.getmaskarray(q)))) > 0:  # type: ignore[no-untyped-call]
+        raise ValueError(f"q: must have no masked entry, got {masked}")
     poses = np.asarray(q)
     if poses.dtype.kind not in "fiu":
         raise ValueError(f"q: must be an array of real numbers, got dtype {poses.dtype}")
@@ -113,6 +116,18 @@ def _save(poses: NDArray[np.float64], params: Parameters, path: Path) -> Path:
     ending = path.suffix.lower()
     if ending not in _ANIMATIONS + _PICTURES:
         raise ValueError(f"save: must end in {', '.join(_ANIMATIONS + _PICTURES)}, got {str(path)!r}")
+    try:
+        _write(poses, params, path)
+    except OSError as error:  # a missing or read-only folder, a full disk
+        raise ValueError(f"save: cannot write {str(path)!r}: {error.strerror or error}") from error
+    except subprocess.CalledProcessError as error:  # ffmpeg, on a full disk for one
+        raise ValueError(f"save: cannot write {str(path)!r}: ffmpeg failed ({error.returncode})") from error
+    return path
+
+
+def _write(poses: NDArray[np.float64], params: Parameters, path: Path) -> None:
+    """The file appears under its name when it is complete."""
+    ending = path.suffix.lower()
     handle, name = tempfile.mkstemp(suffix=ending, prefix=".render-", dir=path.parent)
     os.close(handle)
     unfinished = Path(name)
@@ -127,7 +142,6 @@ def _save(poses: NDArray[np.float64], params: Parameters, path: Path) -> Path:
         unfinished.replace(path)
     finally:
         unfinished.unlink(missing_ok=True)
-    return path
 
 
 def _write_animation(poses: NDArray[np.float64], params: Parameters, path: Path) -> None:

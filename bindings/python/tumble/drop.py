@@ -90,7 +90,7 @@ def get_contacts(q: ArrayLike, params: Parameters = _DEFAULTS) -> tuple[NDArray[
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity.
+        For a wrong shape, NaN, infinity or a masked entry.
 
     Notes
     -----
@@ -123,7 +123,7 @@ def form_lcp(
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity.
+        For a wrong shape, NaN, infinity or a masked entry.
     """
     return _core.form_lcp(J, v, params)
 
@@ -146,7 +146,7 @@ def solve_LCP(V: ArrayLike, p: ArrayLike, params: Parameters = _DEFAULTS) -> NDA
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity.
+        For a wrong shape, NaN, infinity or a masked entry.
     NoSolution
         (a RuntimeError) with the status, if the LCP has no solution.
     """
@@ -176,7 +176,7 @@ def step(
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity.
+        For a wrong shape, NaN, infinity or a masked entry.
     NoSolution
         If the numbers leave the range of double arithmetic.
     """
@@ -205,7 +205,7 @@ def simulate(
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity.
+        For a wrong shape, NaN, infinity or a masked entry.
     NoSolution
         If the numbers leave the range of double arithmetic; the text says at which step.
     """
@@ -270,13 +270,13 @@ def record(q0: ArrayLike, v0: ArrayLike, params: Parameters = _DEFAULTS) -> Reco
     Returns
     -------
     Record
-        Row k belongs to the step from column k on; of the last column it says what the next step would do. A run that
-        leaves the range of double ends early, its last status being "numerical".
+        Row k belongs to the step from column k on; of the last column it says what the next step would do. A run whose
+        numbers or energies leave the range of double ends early, its last status being "numerical".
 
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity.
+        For a wrong shape, NaN, infinity or a masked entry, or a start whose energy is not finite.
     """
     return Record(params=params, **_core.simulate_with_record(q0, v0, params))
 
@@ -299,6 +299,6 @@ def corner_positions(q: ArrayLike, params: Parameters = _DEFAULTS) -> NDArray[np
     Raises
     ------
     ValueError
-        For a wrong shape, NaN or infinity.
+        For a wrong shape, NaN, infinity or a masked entry.
     """
     return _core.corner_positions(q, params)

@@ -245,7 +245,7 @@ def solve(
     Raises
     ------
     ValueError
-        For an unknown method, a matrix that does not fit q, NaN or infinite entries, or a setting out of range.
+        For an unknown method, a matrix that does not fit q, NaN, infinite or masked entries, or a setting out of range.
     TypeError
         For a setting that the method does not have.
 
@@ -531,7 +531,7 @@ def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike, row_sizes: ArrayLike | No
     Raises
     ------
     ValueError
-        For shapes that do not fit, NaN or infinite entries of M or q.
+        For shapes that do not fit, NaN, infinite or masked entries of M or q.
 
     Examples
     --------

@@ -142,6 +142,11 @@ inline bool integrate(State& state, const Vector3& acceleration, double lift, do
 
 // ---- What part 4 is made of ----
 
+// A record states the energies of each column; speeds above about 1e154 m/s have none in double.
+bool has_energy(const State& state, const Parameters& p) {
+  return std::isfinite(kinetic_energy(state.v, p) + potential_energy(state.q, p));
+}
+
 // Drops the columns from `columns` on.
 void keep_columns(std::vector<double>& rows, std::size_t stride, std::size_t columns) {
   for (std::size_t i = 1; i < 3; ++i) {
@@ -263,12 +268,21 @@ Trajectory simulate(const Vector3& q0, const Vector3& v0, const Parameters& para
 
 Record simulate_with_record(const Vector3& q0, const Vector3& v0, const Parameters& parameters) {
   const Model model(parameters);
+  require_finite(q0, "q0");
+  require_finite(v0, "v0");
+  if (!has_energy({q0, v0}, parameters)) {
+    throw std::invalid_argument(
+        fmt::format("q0, v0: the kinetic and the potential energy must be finite, got {} J and {} J",
+                    kinetic_energy(v0, parameters), potential_energy(q0, parameters)));
+  }
   Record record;
   record.parameters = parameters;
   record.steps.reserve(static_cast<std::size_t>(parameters.columns));
   record.trajectory = run(q0, v0, model, [&](State& state) {
-    advance(state, record.steps.emplace_back(), model);
-    return record.steps.back().status;
+    StepRecord& step = record.steps.emplace_back();
+    advance(state, step, model);
+    if (!has_energy(state, parameters)) step.status = LcpStatus::numerical;
+    return step.status;
   });
 
   // The last column is not stepped from, but its contact is part of the record; a failed step has left its own.

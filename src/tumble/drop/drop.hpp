@@ -119,6 +119,8 @@ struct Record {
   std::vector<StepRecord> steps;  // one per column: the step from that column on; of the last column, what it would do
 };
 
+// As `simulate`, but states whose energy leaves the range of double are out of range too: refused at the start, and the
+// end of the run with status numerical later.
 Record simulate_with_record(const Vector3& q0, const Vector3& v0, const Parameters& parameters = {});
 
 // 1/2 v^T M v [J].

@@ -16,6 +16,7 @@ double slip_direction(ContactMode mode) {
 }
 
 constexpr double k_ridge = 1e-10;      // [-] of the diagonal
+constexpr double k_path_ridge = 1e-8;  // the same along a path, where the last digits decide which way it goes
 constexpr double k_round_off = 1e-13;  // relative: contradictions below are not real
 
 bool has_friction(const ContactPlace& place) { return place.s >= 0 && place.c >= 0 && place.friction > 0.0; }
@@ -119,7 +120,7 @@ void ContactModes::fill_equations(const ContactStructure& structure) {
     }
     first_[i] = first;
     last_[i] = last;
-    equation[i] += k_ridge * structure.diagonal[row];
+    equation[i] += ridge_ * structure.diagonal[row];
   }
 }
 
@@ -139,7 +140,7 @@ void ContactModes::factor(const ContactStructure& structure) {
       for (Index j = c + 1; j < end; ++j) row[j] -= factor * from[j];
       last_[i] = std::max(last_[i], last_[c]);
     }
-    if (row[i] == 0.0) row[i] = k_ridge * std::abs(structure.diagonal[static_cast<Index>(unknown_[i])]);
+    if (row[i] == 0.0) row[i] = ridge_ * std::abs(structure.diagonal[static_cast<Index>(unknown_[i])]);
   }
 }
 
@@ -256,6 +257,7 @@ int ContactModes::change_modes(const ContactStructure& structure, Change change)
 
 bool ContactModes::run(const ContactStructure& structure, Change change, int max_rounds) {
   seen_.clear();
+  ridge_ = k_ridge;
   for (rounds_ = 1;; ++rounds_) {
     factor(structure);
     find_impulses(structure, structure.b, f_);
@@ -308,7 +310,8 @@ int ContactModes::border_condition(ContactMode from, ContactMode to) {
 }
 
 bool ContactModes::follow(const ContactStructure& structure, int max_steps) {
-  constexpr double largest_lambda = 4.0;  // far back is the way to a ray
+  constexpr double largest_lambda = 1000.0;  // far back is the way to a ray
+  ridge_ = k_path_ridge;
   find_drift(structure);
   double lambda = 1.0, sign = -1.0;
   Index changed = modes.size();

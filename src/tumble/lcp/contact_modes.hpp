@@ -68,6 +68,7 @@ class ContactModes {
   static int border_condition(ContactMode from, ContactMode to);
 
   int rounds_ = 0;
+  double ridge_ = 0.0;                     // [-] of the diagonal, added to it
   std::vector<double> swept_;              // impulses of the sweeps
   std::vector<std::uint64_t> seen_;        // hashes of the modes tried in this run
   std::vector<double> f_, u_;              // per contact (n, t)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace tumble {
@@ -39,13 +40,18 @@ class DenseLu {
         std::swap(order_[best], order_[c]);
       }
       const Real inverse = Real(1) / at(c, c);
+      if constexpr (!k_is_fast) list_nonzeros(c);
       for (std::size_t i = c + 1; i < k_; ++i) {
         if (at(i, c) == Real(0)) continue;
         const Real factor = at(i, c) * inverse;
         at(i, c) = factor;
         const Real* from = row(c);
         Real* to = row(i);
-        for (std::size_t j = c + 1; j < k_; ++j) to[j] -= factor * from[j];
+        if constexpr (k_is_fast) {
+          for (std::size_t j = c + 1; j < k_; ++j) to[j] -= factor * from[j];
+        } else {
+          for (const std::size_t j : nonzeros_) to[j] -= factor * from[j];
+        }
       }
     }
     return true;
@@ -55,17 +61,34 @@ class DenseLu {
   void solve(const Real* b, Real* x) const {
     for (std::size_t i = 0; i < k_; ++i) {
       Real sum = b[order_[i]];
-      for (std::size_t j = 0; j < i; ++j) sum -= entries_[i * k_ + j] * x[j];
+      for (std::size_t j = 0; j < i; ++j) subtract_product(sum, entries_[i * k_ + j], x[j]);
       x[i] = sum;
     }
     for (std::size_t i = k_; i-- > 0;) {
       Real sum = x[i];
-      for (std::size_t j = i + 1; j < k_; ++j) sum -= entries_[i * k_ + j] * x[j];
+      for (std::size_t j = i + 1; j < k_; ++j) subtract_product(sum, entries_[i * k_ + j], x[j]);
       x[i] = sum / entries_[i * k_ + i];
     }
   }
 
  private:
+  // Numbers made in software are slow: there it pays to skip zeros.
+  static constexpr bool k_is_fast = std::is_floating_point_v<Real>;
+
+  void list_nonzeros(std::size_t c) {
+    nonzeros_.clear();
+    for (std::size_t j = c + 1; j < k_; ++j) {
+      if (at(c, j) != Real(0)) nonzeros_.push_back(j);
+    }
+  }
+
+  static void subtract_product(Real& sum, const Real& a, const Real& b) {
+    if constexpr (!k_is_fast) {
+      if (a == Real(0) || b == Real(0)) return;
+    }
+    sum -= a * b;
+  }
+
   Real& at(std::size_t i, std::size_t j) { return entries_[i * k_ + j]; }
   Real* row(std::size_t i) { return entries_.data() + i * k_; }
 
@@ -83,7 +106,7 @@ class DenseLu {
   std::size_t k_ = 0;
   std::vector<Real> entries_;
   std::vector<Real> smallest_pivots_;  // per column, if there is a tolerance
-  std::vector<std::size_t> order_;
+  std::vector<std::size_t> order_, nonzeros_;
 };
 
 }  // namespace tumble

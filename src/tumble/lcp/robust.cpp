@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <span>
 #include <utility>
 
@@ -14,8 +15,11 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t k_max_quad_size = 100;  // above, one solve with 113 bits takes minutes
-constexpr std::size_t k_max_tableau_size = 1000;
+// Above these sizes a method takes longer than it is worth: the tableau than LU factors do, 113 bits from the start
+// minutes, 113 bits from a basis that is nearly right also.
+constexpr std::size_t k_max_tableau_size = 100;
+constexpr std::size_t k_max_quad_size = 100;
+constexpr std::size_t k_max_quad_correction_size = 600;
 constexpr std::size_t k_max_infeasibility_size = 200;  // above, the search takes minutes
 
 // One step of the ladder: improves workspace.result, or leaves it.
@@ -65,7 +69,7 @@ void run_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWor
     return is_done;
   };
   const int m = static_cast<int>(buffers.modes.modes.size());
-  if (search == ModeSearch::path && !count(buffers.modes.follow(buffers.contacts, 20 + m))) return;
+  if (search == ModeSearch::path && !count(buffers.modes.follow(buffers.contacts, 20 + 4 * m))) return;
   const auto change = search == ModeSearch::one_by_one ? ContactModes::Change::worst : ContactModes::Change::all;
   if (!count(buffers.modes.run(buffers.contacts, change, 30))) return;
   buffers.modes.write(buffers.contacts, buffers.z, result.basis);
@@ -139,25 +143,48 @@ void try_infeasible(const LcpProblem& problem, const RobustSettings&, LcpWorkspa
   prove_infeasible(problem, workspace);
 }
 
-void try_lemke_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
-  if (problem.size() > k_max_quad_size) return;
-  run_lemke_lu(problem,
-               {.pivot_tolerance = 1e-20,
-                .accepted_residual = settings.accepted_residual,
-                .precision = Precision::quad_precision},
-               workspace);
+// Lemke with 113 bits, for M as it is or with a tiny diagonal: contacts that depend on each other to the last bits
+// share their load once they have one. Large problems start from the last basis met, if it is nearly right.
+void run_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace,
+              std::initializer_list<double> ridges) {
+  constexpr double nearly_right = 1e-3;
+  const std::size_t n = problem.size();
+  LcpResult& result = workspace.result;
+  LemkeLuSettings quad{.pivot_tolerance = 1e-20,
+                       .accepted_residual = settings.accepted_residual,
+                       .precision = Precision::quad_precision};
+  if (n > k_max_quad_size) {
+    if (n > k_max_quad_correction_size || !(result.residual <= nearly_right)) return;
+    quad.max_pivots = static_cast<int>(n);
+    quad.start_basis = result.basis;
+  }
+  for (const double ridge : ridges) {
+    quad.ridge = ridge;
+    run_lemke_lu(problem, quad, workspace);
+    if (result.status == LcpStatus::solved) return;
+  }
 }
 
+void try_lemke_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
+  run_quad(problem, settings, workspace, {0.0, 1e-14, 1e-13});
+}
+
+// For large problems. The first ridge from no basis and, where that leads in circles, from a guess of the modes.
 void try_ridge(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
-  if (problem.size() > k_max_quad_size) return;
-  for (const double ridge : {1e-14, 1e-13}) {
-    run_lemke_lu(problem,
-                 {.pivot_tolerance = 1e-20,
-                  .accepted_residual = settings.accepted_residual,
-                  .precision = Precision::quad_precision,
-                  .ridge = ridge},
+  if (problem.size() <= k_max_quad_size) return;
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  const auto attempt = [&](double ridge, const std::vector<std::uint8_t>& start_basis) {
+    run_lemke_lu(problem, {.accepted_residual = settings.accepted_residual, .ridge = ridge, .start_basis = start_basis},
                  workspace);
-    if (workspace.result.status == LcpStatus::solved) return;
+    if (workspace.result.status != LcpStatus::solved) run_quad(problem, settings, workspace, {0.0, 1e-14});
+    return workspace.result.status == LcpStatus::solved;
+  };
+  for (const double ridge : {1e-11, 1e-9, 1e-7}) {
+    if (attempt(ridge, {})) return;
+    if (!buffers.has_contacts) continue;
+    buffers.modes.sweep(buffers.contacts, 100);
+    buffers.modes.write(buffers.contacts, buffers.z, workspace.result.basis);
+    if (attempt(ridge, std::vector<std::uint8_t>(workspace.result.basis))) return;
   }
 }
 

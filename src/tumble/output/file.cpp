@@ -52,7 +52,7 @@ Target find_target(const fs::path& path) {
   if (!target.exists && errno != ENOENT) fail("write", path, errno);
   if (target.exists) {
     if (S_ISDIR(info.st_mode)) refuse(path, "is a folder, expected the name of a file");
-    target.is_direct = !S_ISREG(info.st_mode);
+    target.is_direct = S_ISCHR(info.st_mode);
     target.mode = info.st_mode & 07777;
   }
   std::error_code error;
@@ -67,6 +67,10 @@ Target find_target(const fs::path& path) {
     target.path = folder_of(target.path) / next;
   }
   if (target.is_direct) target.path = path;
+  // A named pipe would keep the program waiting for a reader; the others are no place for a file.
+  if (target.exists && !target.is_direct && !S_ISREG(info.st_mode)) {
+    refuse(path, "is a named pipe, a socket or a block device, expected the name of a file");
+  }
   return target;
 }
 
@@ -115,23 +119,35 @@ OutputFile::OutputFile(const fs::path& path, bool overwrite) : path_(path), over
     if (descriptor_ < 0) fail("write", path_, errno);
     return;
   }
-  do {
-    working_path_ = temporary_name(target_);
-    descriptor_ = ::open(working_path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (descriptor_ < 0 && errno == EEXIST);
-  if (descriptor_ < 0) fail("write", path_, errno);
+  open_unfinished();
   // Some file systems know no permissions; the file is then as open as all others there.
   if (target.exists) static_cast<void>(::fchmod(descriptor_, target.mode));
 }
 
 OutputFile::~OutputFile() {
-  if (!is_committed_) discard();
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (has_temporary_name_) ::unlink(working_path_.c_str());
 }
 
-void OutputFile::discard() noexcept {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  descriptor_ = -1;
-  if (!is_direct_) ::unlink(working_path_.c_str());
+void OutputFile::open_unfinished() {
+  // A file without a name is gone whatever ends the process. It is reached, and later named, by way of /proc.
+  if (::access("/proc/self/fd", X_OK) == 0) {
+    descriptor_ = ::open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    working_path_ = fmt::format("/proc/{}/fd/{}", ::getpid(), descriptor_);
+    if (descriptor_ >= 0) return;
+  }
+  do {  // a file system that does not know such files
+    working_path_ = temporary_name(target_);
+    descriptor_ = ::open(working_path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && errno == EEXIST);
+  if (descriptor_ < 0) fail("write", path_, errno);
+  has_temporary_name_ = true;
+}
+
+// Fails if the name is in use.
+bool OutputFile::link_as(const fs::path& name) const {
+  return ::linkat(AT_FDCWD, working_path_.c_str(), AT_FDCWD, name.c_str(),
+                  has_temporary_name_ ? 0 : AT_SYMLINK_FOLLOW) == 0;
 }
 
 void OutputFile::write(std::string_view bytes) {
@@ -147,25 +163,20 @@ void OutputFile::write(std::string_view bytes) {
 void OutputFile::commit() {
   // Pipes and devices answer EINVAL or ENOTSUP: there is nothing to bring to a disk.
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) fail("write", path_, errno);
-  const int closed = ::close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0 && errno != EINTR) fail("write", path_, errno);
-  if (is_direct_) {
-    is_committed_ = true;
-    return;
+  if (is_direct_ || link_as(target_)) return;
+  if (!overwrite_ && (errno == EEXIST || fs::exists(target_))) refuse(path_, "already exists");
+  // Only a rename replaces a file in one step, and it needs a name to start from.
+  while (!has_temporary_name_) {
+    const fs::path name = temporary_name(target_);
+    if (link_as(name)) {
+      working_path_ = name;
+      has_temporary_name_ = true;
+    } else if (errno != EEXIST) {
+      fail("write", path_, errno);
+    }
   }
-  bool is_linked = false;
-  if (!overwrite_) {
-    // A link fails if the name has come into use since the check; a rename would replace the other file.
-    is_linked = ::link(working_path_.c_str(), target_.c_str()) == 0;
-    if (!is_linked && (errno == EEXIST || fs::exists(target_))) refuse(path_, "already exists");
-  }
-  if (is_linked) {
-    ::unlink(working_path_.c_str());
-  } else if (::rename(working_path_.c_str(), target_.c_str()) != 0) {
-    fail("write", path_, errno);
-  }
-  is_committed_ = true;
+  if (::rename(working_path_.c_str(), target_.c_str()) != 0) fail("write", path_, errno);
+  has_temporary_name_ = false;
 }
 
 void check_target(const fs::path& path, bool overwrite) {

@@ -11,11 +11,14 @@ namespace tumble::output {
 // The path for a message: one line, without bytes that a terminal would act on.
 std::string path_text(const std::filesystem::path& path);
 
-// A file under construction. The bytes go to a temporary name in the folder of the target; `commit` renames
-// it. Without `commit` nothing is left behind and an older file stays as it was. A symbolic link stays and
-// its target is replaced. What is not a regular file (/dev/null, /dev/stdout, a pipe) is written to directly.
-// Throws std::invalid_argument if the target exists and may not be overwritten or is a folder, and
-// std::system_error (a std::runtime_error) with path and reason for everything the system refuses.
+// A file under construction. The bytes go to a file without a name on the disk of the target; `commit` gives it
+// the name. Without `commit` nothing is left behind, even if the process is killed, and an older file stays as it
+// was. (File systems without nameless files get a temporary name, .tumble-PID-N.tmp, which a kill leaves behind.)
+// A symbolic link stays and its target is replaced. A character device and a descriptor of this process (/dev/null,
+// /dev/stdout, /dev/fd/N) are written to directly.
+// Throws std::invalid_argument if the target exists and may not be overwritten or is a folder, a named pipe, a socket
+// or a block device, and std::system_error (a std::runtime_error) with path and reason for everything the system
+// refuses.
 class OutputFile {
  public:
   OutputFile(const std::filesystem::path& path, bool overwrite);
@@ -30,22 +33,22 @@ class OutputFile {
   const std::filesystem::path& working_path() const { return working_path_; }
 
  private:
-  void discard() noexcept;
+  void open_unfinished();
+  bool link_as(const std::filesystem::path& name) const;
 
   std::filesystem::path path_;          // as given, for messages
   std::filesystem::path target_;        // links followed
   std::filesystem::path working_path_;  // equal to target_ if written to directly
   bool overwrite_;
   bool is_direct_ = false;
-  bool is_committed_ = false;
+  bool has_temporary_name_ = false;
   int descriptor_ = -1;
 };
 
 // Everything about the target that can be known without touching it. Throws std::invalid_argument.
 void check_target(const std::filesystem::path& path, bool overwrite);
 
-// True if the path exists, links followed, and is a device, a pipe or a socket, or a descriptor of this
-// process.
+// True if the path exists, links followed, and is a character device or a descriptor of this process.
 bool is_direct_target(const std::filesystem::path& path);
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes, bool overwrite);

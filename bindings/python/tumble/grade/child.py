@@ -75,6 +75,7 @@ def _load(sink: Sink) -> tuple[ModuleType | None, dict[str, Any]]:
         "similar": {name: _similar(namespace, name) for name in FUNCTIONS},
         "parameters": read_parameters(namespace),
         "notes": _notes_on_loading(seconds, sink, shown),
+        "doubts": _doubts(),
     }
 
 
@@ -114,13 +115,17 @@ def _notes_on_loading(seconds: float, sink: Sink, shown: list[str]) -> list[str]
     tree = _syntax_tree()
     if names := sorted({*_calls_while_loading(tree), *shown}):
         notes.append(f"calls {', '.join(names)} as soon as it is imported; {guard}")
-    if _imports_tumble(tree):
-        notes.append("imports tumble, which holds the solution; the points say nothing then")
     if seconds > 1.0:
         notes.append(f"takes {seconds:.1f} s to import")
     if sink.characters:
         notes.append("prints while it is imported")
     return notes
+
+
+def _doubts() -> list[str]:
+    if _imports_tumble(_syntax_tree()):
+        return ["imports tumble, which holds the solution: the points say nothing"]
+    return []
 
 
 def _syntax_tree() -> ast.Module:

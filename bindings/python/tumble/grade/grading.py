@@ -52,6 +52,8 @@ class Grade:
         Why the submission could not be loaded, or "".
     notes : list of str
         Remarks that cost nothing.
+    doubts : list of str
+        Reasons for the teacher not to take the points as they are.
     """
 
     name: str
@@ -59,6 +61,7 @@ class Grade:
     parameters: dict[str, dict[str, Any]] = field(default_factory=dict)
     problem: str = ""
     notes: list[str] = field(default_factory=list)
+    doubts: list[str] = field(default_factory=list)
 
     @property
     def points(self) -> float:
@@ -163,10 +166,11 @@ def _grade(path: Path, name: str, cache: Path, seconds: float) -> Grade:
             if module is None:
                 return _not_loaded(grade, index, process.end)
             grade.parameters = module["parameters"]
-            grade.notes = module["notes"] if index == 0 else grade.notes
+            if index == 0:
+                grade.notes, grade.doubts = module["notes"], module["doubts"]
             grade.parts[index] = _grade_part(part, process, module, conventions)
             conventions.update(grade.parts[index].conventions)
-    grade.notes += _hidden_by_parameters(grade.parameters)
+    grade.doubts += _hidden_by_parameters(grade.parameters)
     if printing := [part.FUNCTION for part, result in zip(PARTS, grade.parts) if result.prints]:
         grade.notes.append(
             f"{', '.join(printing)}: prints; that costs nothing, but remove it before you hand in"

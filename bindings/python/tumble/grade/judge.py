@@ -21,6 +21,8 @@ from tumble.grade.sandbox import Observation
 # Right solutions differ by round-off alone: 1e-15 of the numbers involved, 1e-12 after an inverse or an own LCP solver.
 # The smallest mistake worth a name changes a result by 1e-4 of its size. Anything between separates the two.
 TOLERANCE = 1e-9
+# Round-off of single precision is 1e-7 of the numbers involved; angles of some turns make it 1e-5 of an item's scale.
+SINGLE_TOLERANCE = 2e-5
 # A result this near the right one was computed with a rounded constant.
 _NEARLY = 5e-3
 # Points for handing over results as documented; the rest of a part is for the values.
@@ -157,14 +159,17 @@ def judge(
     PartResult
         The same object.
     """
-    scores = [_score(evidence, reading, items) for reading in readings]
-    best = max(range(len(readings)), key=lambda k: (sum(item.points for item in scores[k].items), -k))
-    score, reading = scores[best], readings[best]
+    score, reading = _best_score(evidence, readings, items, TOLERANCE)
+    loose, loose_reading = _best_score(evidence, readings, items, SINGLE_TOLERANCE)
+    if _is_single_precision(score, loose):
+        score, reading = loose, loose_reading
+        result.notes.append("some numbers are right to 5 digits only, from single precision (float32) or a rounded constant")
     result.items = [_form_item(FORM_POINTS, evidence, reading, score), *score.items]
     result.conventions = dict(reading.conventions)
     result.mistakes = [
         *_form_mistakes(evidence, reading, score),
         *_errors(evidence),
+        *_not_finite(evidence, score),
         *_likely_mistakes(evidence, score, items, variants, result.conventions),
     ]
     result.prints = any(observation.printed for observation in evidence.observations)
@@ -175,13 +180,28 @@ def judge(
 class _Score:
     """Values read from the observations. `right[i][k]` tells if item i is right in case k; None if it has no such."""
 
+    tolerance: float
     outputs: list[Output | None]
     problems: list[str]
     right: list[list[bool | None]]
     items: list[ItemResult]
 
 
-def _score(evidence: Evidence, reading: Reading, items: Sequence[Item]) -> _Score:
+def _best_score(
+    evidence: Evidence, readings: Sequence[Reading], items: Sequence[Item], tolerance: float
+) -> tuple[_Score, Reading]:
+    scores = [_score(evidence, reading, items, tolerance) for reading in readings]
+    best = max(range(len(readings)), key=lambda k: (sum(item.points for item in scores[k].items), -k))
+    return scores[best], readings[best]
+
+
+def _is_single_precision(score: _Score, loose: _Score) -> bool:
+    """Whether the loose tolerance makes items right as a whole, and no item right in part: that would be a mistake."""
+    gains = [item for before, item in zip(score.items, loose.items) if item.passed > before.passed]
+    return bool(gains) and all(item.passed == item.total for item in gains)
+
+
+def _score(evidence: Evidence, reading: Reading, items: Sequence[Item], tolerance: float) -> _Score:
     outputs: list[Output | None] = []
     problems: list[str] = []
     for observation in evidence.observations:
@@ -190,28 +210,28 @@ def _score(evidence: Evidence, reading: Reading, items: Sequence[Item]) -> _Scor
         problems.append(problem)
     right, results = [], []
     for item in items:
-        counts = [_count_right(item, case, output) for case, output in zip(evidence.cases, outputs)]
+        counts = [_count_right(item, case, output, tolerance) for case, output in zip(evidence.cases, outputs)]
         passed, total = (sum(column) for column in zip(*counts))
         right.append([None if n == 0 else k == n for k, n in counts])
         points = item.points * passed / total if total else item.points
         results.append(ItemResult(item.name, points, item.points, passed, total))
-    return _Score(outputs, problems, right, results)
+    return _Score(tolerance, outputs, problems, right, results)
 
 
-def _count_right(item: Item, case: Case, output: Output | None) -> tuple[int, int]:
+def _count_right(item: Item, case: Case, output: Output | None, tolerance: float) -> tuple[int, int]:
     """How many of how many are right: entries of the quantity, or the state as a whole."""
     truth = item.quantity(case, case.truth)
     if truth is None:
         return 0, 0
     value = None if output is None else item.quantity(case, output)
     if item.entrywise:
-        right = 0 if value is None else int(np.sum(np.abs(value - truth) <= TOLERANCE * item.scale))
+        right = 0 if value is None else int(np.sum(np.abs(value - truth) <= tolerance * item.scale))
         return right, truth.size
-    return int(_agree(item, value, truth)), 1
+    return int(_agree(item, value, truth, tolerance)), 1
 
 
-def _agree(item: Item, value: Array | None, truth: Array) -> bool:
-    return value is not None and bool(np.all(np.abs(value - truth) <= TOLERANCE * item.scale))
+def _agree(item: Item, value: Array | None, truth: Array, tolerance: float = TOLERANCE) -> bool:
+    return value is not None and bool(np.all(np.abs(value - truth) <= tolerance * item.scale))
 
 
 def _form_item(points: float, evidence: Evidence, reading: Reading, score: _Score) -> ItemResult:
@@ -276,6 +296,17 @@ def _errors(evidence: Evidence) -> list[str]:
     return messages
 
 
+def _not_finite(evidence: Evidence, score: _Score) -> list[str]:
+    cases = [
+        case
+        for case, output in zip(evidence.cases, score.outputs)
+        if output is not None and not all(np.all(np.isfinite(array)) for array in output)
+    ]
+    if not cases:
+        return []
+    return [f"returns nan or infinity in {len(cases)} of {len(evidence.cases)} states, for example at {cases[0]}"]
+
+
 def _common_tag(cases: Sequence[Case], right: Sequence[bool | None]) -> str:
     """A tag that all wrong cases have and no right one, if there are right ones."""
     wrong = [case for case, ok in zip(cases, right) if ok is False]
@@ -298,7 +329,7 @@ def _likely_mistakes(
     wrong = {i for i, row in enumerate(score.right) if _wrong_cases(row, score.outputs)}
     right = [i for i, row in enumerate(score.right) if False not in row]
     explained = [
-        {i for i in wrong if _explains(variant, items[i], cases, score.outputs)} for variant in variants
+        {i for i in wrong if _explains(variant, items[i], cases, score)} for variant in variants
     ]
     # A mistake that would spoil items that are right is less likely than one that would not.
     spoiled = [
@@ -319,14 +350,14 @@ def _wrong_cases(row: Sequence[bool | None], outputs: Sequence[Output | None]) -
     return [k for k, ok in enumerate(row) if ok is False and outputs[k] is not None]
 
 
-def _explains(variant: Variant, item: Item, cases: Sequence[Case], outputs: Sequence[Output | None]) -> bool:
+def _explains(variant: Variant, item: Item, cases: Sequence[Case], score: _Score) -> bool:
     differs = False
-    for case, output in zip(cases, outputs):
+    for case, output in zip(cases, score.outputs):
         truth = item.quantity(case, case.truth)
         if truth is None or output is None:
             continue
         expected = item.quantity(case, variant.solve(case))
-        if expected is None or not _agree(item, item.quantity(case, output), expected):
+        if expected is None or not _agree(item, item.quantity(case, output), expected, score.tolerance):
             return False
         differs = differs or not _agree(item, expected, truth)
     return differs
@@ -353,10 +384,10 @@ def _hint(item: Item, row: Sequence[bool | None], evidence: Evidence, score: _Sc
     truth = item.quantity(case, case.truth)
     if value is None or truth is None:
         return f"{item.name}: wrong at {case}"
+    if not np.all(np.isfinite(value)):
+        return ""  # said for the part as a whole
     difference = f"{_numbers(value)} instead of {_numbers(truth)}"
     text = f"{item.name}: wrong in {len(wrong)} states, for example at {case}: {difference}"
-    if not np.all(np.isfinite(value)):
-        return f"{item.name}: returns nan or infinity, for example at {case}"
     if all(_is_near(item, evidence.cases[k], score.outputs[k]) for k in wrong):
         text += "; so near that a rounded constant is likely (3.14, 9.8, 0.7)"
     return text

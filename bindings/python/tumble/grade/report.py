@@ -28,6 +28,7 @@ def as_text(grade: Grade) -> str:
     if grade.problem:
         return "\n".join([*lines, f"  {grade.problem}"])
     lines.append(f"  {_parameter_line(grade)}")
+    lines += [f"  doubt: {doubt}" for doubt in grade.doubts]
     lines += [f"  note: {note}" for note in grade.notes]
     for part in grade.parts:
         lines += _part_lines(part)
@@ -69,8 +70,8 @@ def as_json(grade: Grade) -> dict[str, Any]:
     Returns
     -------
     dict
-        name, points, maximum, problem (None if the file could be imported), parameters, notes, and parts with their
-        number, title, points, maximum, items, mistakes and notes.
+        name, points, maximum, problem (None if the file could be imported), parameters, doubts, notes, and parts with
+        their number, title, points, maximum, items, mistakes and notes.
     """
     return {
         "name": grade.name,
@@ -78,6 +79,7 @@ def as_json(grade: Grade) -> dict[str, Any]:
         "maximum": MAXIMUM,
         "problem": grade.problem or None,
         "parameters": grade.parameters,
+        "doubts": grade.doubts,
         "notes": grade.notes,
         "parts": [_part_as_json(part) for part in grade.parts],
     }
@@ -117,18 +119,18 @@ def as_table(grades: Sequence[Grade]) -> str:
         Lines of text, without a newline at the end.
     """
     width = max((len(grade.name) for grade in grades), default=0)
-    header = f"{'submission':<{max(width, 10)}}  points  part 1  part 2  part 3  part 4  first mistake"
+    header = f"{'submission':<{max(width, 10)}}  points  part 1  part 2  part 3  part 4  doubt or first mistake"
     rows = [
         f"{grade.name:<{max(width, 10)}}  {grade.points:6.1f}"
         + "".join(f"  {part.points:6.1f}" for part in grade.parts)
-        + f"  {_first_mistake(grade)}"
+        + f"  {_first_remark(grade)}"
         for grade in grades
     ]
     return "\n".join(row.rstrip() for row in [header, *rows])
 
 
 def as_csv(grades: Sequence[Grade]) -> str:
-    """The table for a spreadsheet: name, points, points of the parts, all mistakes.
+    """The table for a spreadsheet: name, points, points of the parts, all mistakes, all doubts.
 
     Parameters
     ----------
@@ -141,11 +143,10 @@ def as_csv(grades: Sequence[Grade]) -> str:
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["name", "points", "part_1", "part_2", "part_3", "part_4", "mistakes"])
+    writer.writerow(["name", "points", "part_1", "part_2", "part_3", "part_4", "mistakes", "doubts"])
     for grade in grades:
-        writer.writerow(
-            [grade.name, grade.points, *(part.points for part in grade.parts), "; ".join(_mistakes(grade))]
-        )
+        points = [grade.points, *(part.points for part in grade.parts)]
+        writer.writerow([grade.name, *points, "; ".join(_mistakes(grade)), "; ".join(grade.doubts)])
     return text.getvalue()
 
 
@@ -155,5 +156,5 @@ def _mistakes(grade: Grade) -> list[str]:
     return [f"part {part.number}: {mistake}" for part in grade.parts for mistake in part.mistakes]
 
 
-def _first_mistake(grade: Grade) -> str:
-    return next(iter(_mistakes(grade)), "")
+def _first_remark(grade: Grade) -> str:
+    return next(iter([*(f"doubt: {doubt}" for doubt in grade.doubts), *_mistakes(grade)]), "")

@@ -291,7 +291,7 @@ def _is_module(message: dict[str, Any]) -> bool:
         names = [message["functions"][name] for name in FUNCTIONS] + [
             message["similar"][name] for name in FUNCTIONS
         ]
-        texts = [*message["notes"], *(name for name in names if name is not None)]
+        texts = [*message["notes"], *message["doubts"], *(name for name in names if name is not None)]
     except (KeyError, TypeError, ValueError):
         return False
     return all(map(math.isfinite, values)) and all(isinstance(text, str) for text in texts)

@@ -127,9 +127,10 @@ def items(params: drop.Parameters) -> list[Item]:
         return quantity
 
     def decision(case: Case, output: Output) -> Array | None:
-        return (
-            np.array([float(_is_contact(case, output, params))]) if case.data["kind"] == "decision" else None
-        )
+        if case.data["kind"] != "decision":
+            return None
+        is_finite = all(np.all(np.isfinite(array)) for array in output)
+        return np.array([float(_is_contact(case, output, params)) if is_finite else np.nan])
 
     return [
         Item("velocity in free flight", 4.0, velocity("free"), speed),

@@ -13,7 +13,7 @@ import numpy as np
 from tumble import drop
 
 from tumble.grade.codec import Array, Other, as_pair, describe
-from tumble.grade.judge import TOLERANCE, Case, Item, Output, Reading, Variant
+from tumble.grade.judge import SINGLE_TOLERANCE, TOLERANCE, Case, Item, Output, Reading, Variant
 from tumble.grade.states import SEED
 
 NUMBER = 4
@@ -24,6 +24,8 @@ MAXIMUM = 10.0
 COLUMNS = 150
 # Around a tie of two corners, or of phi and delta, round-off decides what happens; both outcomes are right.
 _TIE = 1e-9
+# The deviation of a step that is not there or holds nan, far above that of any step that is.
+_MISSING = 1e300
 
 
 def cases(params: drop.Parameters) -> list[Case]:
@@ -52,7 +54,7 @@ def items(params: drop.Parameters) -> list[Item]:
     """The sub-points."""
 
     def steps(case: Case, output: Output) -> Array:
-        return _wrongness(case, output, params)
+        return _deviations(case, output, params)
 
     def hint(case: Case, output: Output) -> str:
         return _first_wrong_step(case, output, params)
@@ -68,25 +70,29 @@ def _first_column(case: Case, output: Output) -> Array | None:
     return np.array([values[:, 0] for values in output]).ravel()
 
 
-def _wrongness(case: Case, output: Output, params: drop.Parameters) -> Array:
-    """For each step 0 if it is right, 1 if it is wrong, 2 if it is missing, shape (COLUMNS - 1,)."""
+def _deviations(case: Case, output: Output, params: drop.Parameters) -> Array:
+    """For each step its relative difference from the right one, `_MISSING` if there is none, shape (COLUMNS - 1,)."""
     q, v = (values[:, :COLUMNS] for values in output)
     steps = q.shape[1] - 1
     right = np.full((6, steps), np.nan)
     numbers = np.flatnonzero(np.all(np.isfinite(np.vstack([q, v])), axis=0)[:-1])
     for k in numbers:
         right[:, k] = np.concatenate(drop.step(q[:, k], v[:, k], params))
-    scale = TOLERANCE * (1.0 + np.max(np.abs(right), axis=0))
-    follows = np.all(np.abs(np.vstack([q, v])[:, 1:] - right) <= scale, axis=0)
-    wrong = np.full(COLUMNS - 1, 2.0)
-    wrong[:steps] = ~follows
-    for k in numbers[~follows[numbers]]:
-        wrong[k] = not _is_tie(q[:, k], params)
-    return wrong
+    differences = np.abs(np.vstack([q, v])[:, 1:] - right) / (1.0 + np.max(np.abs(right), axis=0))
+    deviations = np.full(COLUMNS - 1, _MISSING)
+    deviations[:steps] = np.nan_to_num(np.max(differences, axis=0), nan=_MISSING, posinf=_MISSING)
+    for k in numbers[deviations[numbers] > TOLERANCE]:
+        if _is_tie(q[:, k], params):
+            deviations[k] = 0.0
+    return deviations
 
 
 def _first_wrong_step(case: Case, output: Output, params: drop.Parameters) -> str:
-    steps = np.flatnonzero(_wrongness(case, output, params) == 1.0)
+    deviations = _deviations(case, output, params)
+    deviations[deviations == _MISSING] = 0.0
+    # Where there are clear mistakes, round-off of single precision is none of them.
+    clear = SINGLE_TOLERANCE if np.max(deviations) > SINGLE_TOLERANCE else TOLERANCE
+    steps = np.flatnonzero(deviations > clear)
     if steps.size == 0:
         return ""
     k = int(steps[0])
