@@ -43,11 +43,9 @@ std::string read_text(const std::string& file) {
 
 LcpProblem read_problem(const std::string& file) { return parse_lcp(read_text(file), shown_name(file)); }
 
-int run_exact(const LcpOptions& options) {
-  if (options.files.size() > 1) {
-    throw std::invalid_argument(fmt::format("--exact: takes one file, got {}", options.files.size()));
-  }
-  return run_lcp_exact(read_text(options.files.front()), shown_name(options.files.front()), options);
+const std::string& only_file(const LcpOptions& options, const char* option) {
+  if (options.files.size() == 1) return options.files.front();
+  throw std::invalid_argument(fmt::format("{}: takes one file, got {}", option, options.files.size()));
 }
 
 LcpReport solve(const std::string& file, const LcpSettings& settings, bool all) {
@@ -76,10 +74,7 @@ int run_one(const LcpOptions& options, const LcpSettings& settings) {
 }
 
 int run_trace(const LcpOptions& options, const LemkeSettings& settings) {
-  if (options.files.size() > 1) {
-    throw std::invalid_argument(fmt::format("--trace: takes one file, got {}", options.files.size()));
-  }
-  const std::string& file = options.files.front();
+  const std::string& file = only_file(options, "--trace");
   const LcpProblem problem = read_problem(file);
   const std::size_t n = problem.size();
   if (n > k_max_trace_size) {
@@ -90,6 +85,11 @@ int run_trace(const LcpOptions& options, const LemkeSettings& settings) {
   const LcpReport report{shown_name(file), n, false, {trace.result}, {}};
   if (!options.report.quiet) fmt::print("{}\n{}", trace_text(trace, n, settings), lcp_text(report));
   return end_of_one(report);
+}
+
+int run_exact(const LcpOptions& options) {
+  const std::string& file = only_file(options, "--exact");
+  return run_lcp_exact(read_text(file), shown_name(file), options);
 }
 
 // A file that cannot be solved does not keep the others from it.

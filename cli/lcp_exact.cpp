@@ -1,5 +1,6 @@
 // `tumble lcp --exact`: rational arithmetic from the text to the answer.
 #include "commands.hpp"
+#include "lcp_report.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -28,29 +29,26 @@ ExactResult solve_exactly(const ExactLcp& problem) {
 
 // Fractions, and the nearest doubles on a line of their own where they say more.
 std::string lines(std::string_view name, const Fractions& numbers) {
-  std::string text = fmt::format("{:<10}{}\n", name, fmt::join(numbers, " "));
+  std::string text = fmt::format("{:<18}{}\n", name, fmt::join(numbers, " "));
   bool has_fraction = false;
   for (const std::string& number : numbers) has_fraction = has_fraction || number.find('/') != std::string::npos;
-  if (has_fraction) text += fmt::format("{:<10}{}\n", "", fmt::join(as_doubles(numbers), " "));
+  if (has_fraction) text += fmt::format("{:<18}{}\n", "", fmt::join(as_doubles(numbers), " "));
   return text;
 }
 
 std::string solution_text(const ExactResult& solution) {
-  std::vector<std::size_t> basic;
-  for (std::size_t i = 0; i < solution.basis.size(); ++i) {
-    if (solution.basis[i]) basic.push_back(i);
-  }
-  return lines("z", solution.z) + lines("w", solution.w) + fmt::format("basic z   {}\n", fmt::join(basic, " "));
+  return lines("z", solution.z) + lines("w", solution.w) +
+         fmt::format("{:<18}{}\n", "basis", basis_text(solution.basis));
 }
 
 std::string certificate_text(LcpStatus status, const Fractions& certificate) {
   if (certificate.empty()) return "";
-  return status == LcpStatus::infeasible ? lines("y", certificate) + "          y >= 0, M'y <= 0, q.y < 0\n"
+  return status == LcpStatus::infeasible ? lines("y", certificate) + "                  y >= 0, M'y <= 0, q.y < 0\n"
                                          : lines("ray", certificate);
 }
 
 std::string exact_text(const ExactResult& result) {
-  std::string text = fmt::format("status    {}\n", to_string(result.status));
+  std::string text = fmt::format("status            {}\n", to_string(result.status));
   if (!result.z.empty()) text += solution_text(result);
   return text + certificate_text(result.status, result.certificate);
 }
@@ -59,17 +57,17 @@ std::string exact_text(const ExactLcp& problem, const ExactSolutionSet& set) {
   const auto count = [](std::size_t number, const char* what) {
     return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
   };
-  std::string text = fmt::format("{}, {}, {} of the LCP with n = {}\nstatus    {}\n",
+  std::string text = fmt::format("{}, {}, {} of the LCP with n = {}\nstatus            {}\n",
                                  count(set.vertices.size(), "vertex solution"), count(set.rays.size(), "ray"),
                                  count(set.faces.size(), "face"), problem.size(), to_string(set.status));
   for (std::size_t v = 0; v < set.vertices.size(); ++v) {
-    text += fmt::format("\nvertex    {}\n{}", v, solution_text(set.vertices[v]));
+    text += fmt::format("\nvertex            {}\n{}", v, solution_text(set.vertices[v]));
   }
   for (std::size_t r = 0; r < set.rays.size(); ++r)
-    text += fmt::format("\nray       {}\n{}", r, lines("z", set.rays[r]));
+    text += fmt::format("\nray               {}\n{}", r, lines("z", set.rays[r]));
   if (!set.faces.empty()) text += "\n";
   for (std::size_t f = 0; f < set.faces.size(); ++f) {
-    text += fmt::format("face      {}: vertices {}", f, fmt::join(set.faces[f].vertices, " "));
+    text += fmt::format("face              {}: vertices {}", f, fmt::join(set.faces[f].vertices, " "));
     text += set.faces[f].rays.empty() ? "\n" : fmt::format(", rays {}\n", fmt::join(set.faces[f].rays, " "));
   }
   return text + certificate_text(set.status, set.certificate);

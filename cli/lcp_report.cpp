@@ -15,15 +15,6 @@ std::size_t num_solutions(const LcpReport& report) {
   return status_of(report) == LcpStatus::solved ? report.results.size() : 0;
 }
 
-// "z1 w2 w3": of each pair the variable that may be other than 0.
-std::string basis_text(const LcpResult& result) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < result.basis.size(); ++i) {
-    names.push_back(fmt::format("{}{}", result.basis[i] ? 'z' : 'w', i + 1));
-  }
-  return fmt::format("{}", fmt::join(names, " "));
-}
-
 std::string certificate_text(const LcpResult& result) {
   if (result.certificate.empty()) return "";
   const char* meaning =
@@ -41,7 +32,7 @@ std::string result_text(const LcpResult& result) {
   text += fmt::format("pivots            {}\n", result.pivots);
   text += fmt::format("refactorisations  {}\n", result.refactorisations);
   text += fmt::format("rung              {}\n", to_string(result.rung));
-  text += fmt::format("basis             {}\n", basis_text(result));
+  text += fmt::format("basis             {}\n", basis_text(result.basis));
   return text + certificate_text(result);
 }
 
@@ -72,6 +63,12 @@ Json json_of(const LcpReport& report) {
 
 LcpStatus status_of(const LcpReport& report) {
   return report.error.empty() ? report.results.front().status : LcpStatus::bad_input;
+}
+
+std::string basis_text(const std::vector<std::uint8_t>& basis) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < basis.size(); ++i) names.push_back(fmt::format("{}{}", basis[i] ? 'z' : 'w', i + 1));
+  return fmt::format("{}", fmt::join(names, " "));
 }
 
 std::string lcp_text(const LcpReport& report) {

@@ -1,6 +1,7 @@
 // What `tumble lcp` prints: text for people, JSON for machines.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct LcpReport {
 };
 
 LcpStatus status_of(const LcpReport& report);
+
+// "z1 w2 w3": of each pair the variable that may be other than 0.
+std::string basis_text(const std::vector<std::uint8_t>& basis);
 
 // A file alone.
 std::string lcp_text(const LcpReport& report);

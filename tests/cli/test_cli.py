@@ -294,6 +294,9 @@ def test_lcp_takes_settings_of_the_method(tmp_path: Path) -> None:
         (["--trace", "--method", "robust"], "--trace: belongs to the method lemke, got --method robust"),
         (["--trace", "--all"], "--trace"),
         (["--trace", "--json"], "--trace"),
+        (["--exact", "--trace"], "--trace"),
+        (["--exact", "--set", "ridge=0"], "--set"),
+        (["--exact", "a.txt"], "--exact: takes one file, got 2"),
         (["--trace", "a.txt"], "--trace: takes one file, got 2"),
     ],
 )
@@ -386,7 +389,7 @@ def test_lcp_without_solution_exits_with_3(tmp_path: Path) -> None:
 
 def test_lcp_exact_prints_fractions(tmp_path: Path) -> None:
     text = succeed("lcp", "-", "--exact", cwd=tmp_path, stdin="M\n0.3\nq\n-0.1\n")
-    assert "z         1/3\n          0.3333333333333333\n" in text and "w         0\n" in text
+    assert "z                 1/3\n                  0.3333333333333333\n" in text and "w                 0\n" in text
     report = json.loads(succeed("lcp", "-", "--exact", "--json", cwd=tmp_path, stdin="M\n0.3\nq\n-0.1\n"))
     assert report["z"] == ["1/3"] and report["z_decimal"] == [1 / 3] and report["status"] == "solved"
 
@@ -394,7 +397,7 @@ def test_lcp_exact_prints_fractions(tmp_path: Path) -> None:
 def test_lcp_exact_lists_vertices_rays_and_faces(tmp_path: Path) -> None:
     half_line = "M\n1 -1\n-1 1\nq\n1 -1\n"
     text = succeed("lcp", "-", "--exact", "--all", cwd=tmp_path, stdin=half_line)
-    assert "1 vertex solution, 1 ray, 1 face" in text and "face      0: vertices 0, rays 0" in text
+    assert "1 vertex solution, 1 ray, 1 face" in text and "face              0: vertices 0, rays 0" in text
     report = json.loads(succeed("lcp", "-", "--exact", "--all", "--json", cwd=tmp_path, stdin=half_line))
     assert report["rays"] == [["1", "1"]] and report["faces"] == [{"vertices": [0], "rays": [0]}]
 
@@ -402,7 +405,7 @@ def test_lcp_exact_lists_vertices_rays_and_faces(tmp_path: Path) -> None:
 def test_lcp_exact_proves_that_there_is_no_solution(tmp_path: Path) -> None:
     for flags in ([], ["--all"]):
         run = tumble("lcp", "-", "--exact", *flags, cwd=tmp_path, stdin="M\n1 -1\n-1 1\nq\n-1 -1\n")
-        assert run.returncode == 3 and "infeasible" in run.stdout and "y         1 1\n" in run.stdout
+        assert run.returncode == 3 and "infeasible" in run.stdout and "y                 1 1\n" in run.stdout
         run = tumble("lcp", "-", "--exact", "--json", *flags, cwd=tmp_path, stdin="M\n0 1\n0 0\nq\n-1 1\n")
         assert run.returncode == 3 and json.loads(run.stdout)["status"] == "no_solution_proved"
 

@@ -2,6 +2,7 @@
 #include "tumble/lcp/methods.hpp"
 
 #include <set>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -21,6 +22,28 @@ TEST(Methods, EverySolverHasOneName) {
   EXPECT_EQ(kinds.size(), std::variant_size_v<LcpSettings>);
   EXPECT_EQ(names.size(), lcp_methods().size());
   EXPECT_EQ(lcp_methods().front().defaults.index(), LcpSettings().index());
+}
+
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+
+// The number of fields of an aggregate: the most initializers that it takes.
+template <class Aggregate, class... Initializers>
+constexpr std::size_t num_fields() {
+  if constexpr (requires { Aggregate{Initializers{}..., Anything{}}; }) {
+    return num_fields<Aggregate, Initializers..., Anything>();
+  } else {
+    return sizeof...(Initializers);
+  }
+}
+
+TEST(Methods, NoFieldOfTheSettingsIsLeftOut) {
+  for (const LcpMethod& method : lcp_methods()) {
+    const auto count = [](const auto& settings) { return num_fields<std::decay_t<decltype(settings)>>(); };
+    EXPECT_EQ(named_settings(method.defaults).size(), std::visit(count, method.defaults)) << method.name;
+  }
 }
 
 TEST(Methods, EverySettingCanBeReadAndSet) {
@@ -47,7 +70,7 @@ TEST(Methods, ValuesReachTheirFields) {
   EXPECT_EQ(set.start_basis, (std::vector<std::uint8_t>{0, 1, 1}));
   std::string text;
   for (const NamedSetting& setting : named_settings(settings)) text += to_text(setting.value) + ' ';
-  EXPECT_EQ(text, "7 1e-05 1e-08 quad 0 0,1,1 ");
+  EXPECT_EQ(text, "7 40 1e-05 1e-08 quad 0 0,1,1 ");
 }
 
 template <class Call>

@@ -346,6 +346,7 @@ def default_settings(method: str = "robust") -> dict[str, Any]:
     -------
     dict
         - max_pivots: 0 stands for a number that grows with n; max_iterations, max_sweeps: >= 1;
+        - max_exchanges: pivots between two factorisations;
         - relaxation: of each step of a sweep, in (0, 2);
         - pivot_tolerance: the smallest pivot, relative to the largest entry of its column, in [0, 1);
         - accepted_residual: "solved" means a residual no larger than this, in (0, 0.01];
