@@ -350,6 +350,7 @@ def default_settings(method: str = "robust") -> dict[str, Any]:
         - relaxation: of each step of a sweep, in (0, 2);
         - pivot_tolerance: the smallest pivot, relative to the largest entry of its column, in [0, 1);
         - accepted_residual: "solved" means a residual no larger than this, in (0, 0.01];
+        - cover: 0 for the cover of ones, any other number for a pseudo-random one, and with it another path;
         - precision: "double" (53 bits) or "quad" (113 bits, some 50 times slower);
         - ridge: added to the diagonal of the scaled M; the answer is judged without, in [0, 1e-6];
         - start_basis, start_z: see `start` of `solve`.
