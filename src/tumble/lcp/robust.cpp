@@ -61,6 +61,7 @@ void try_closed_form(const LcpProblem& problem, const RobustSettings& settings, 
 }
 
 constexpr int k_max_newton_rounds = 12;  // where it gets there, it does so in a few
+constexpr int k_max_single_changes = 30;
 
 enum class ModeSearch { newton, one_by_one, path };
 
@@ -74,8 +75,10 @@ void run_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWor
   };
   const int m = static_cast<int>(buffers.modes.modes.size());
   if (search == ModeSearch::path && !count(buffers.modes.follow(buffers.contacts, 20 + 2 * m))) return;
-  const auto change = search == ModeSearch::one_by_one ? ContactModes::Change::worst : ContactModes::Change::all;
-  if (!count(buffers.modes.run(buffers.contacts, change, k_max_newton_rounds))) return;
+  const bool is_one_by_one = search == ModeSearch::one_by_one;
+  const auto change = is_one_by_one ? ContactModes::Change::worst : ContactModes::Change::all;
+  const int max_rounds = is_one_by_one ? k_max_single_changes : k_max_newton_rounds;
+  if (!count(buffers.modes.run(buffers.contacts, change, max_rounds))) return;
   buffers.modes.write(buffers.contacts, buffers.z, result.basis);
   offer(problem, settings, workspace);
 }
