@@ -1,14 +1,18 @@
 // tumble._core: systems of contacts as LCPs. Public face: tumble/lcp.py.
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 
 #include "convert_lcp.hpp"
 #include <fmt/format.h>
 
+#include "tumble/lcp/contact_motions.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/lcp/one_contact.hpp"
+#include "tumble/lcp/solve_contacts.hpp"
 
 namespace tumble::python {
 namespace {
@@ -97,46 +101,81 @@ py::tuple contact_problem(const py::handle& J_n, const py::handle& J_t, const py
   return py::make_tuple(to_numpy(problem.M, n, n), to_numpy(problem.q), to_numpy(problem.row_sizes));
 }
 
-double tangential_velocity(const BodyContact& contact, const std::vector<Vector3>& velocity) {
-  double sum = 0.0;
-  for (Index j = 0; j < 3; ++j) {
-    if (contact.body_a >= 0) sum += contact.tangent_a[j] * velocity[static_cast<Index>(contact.body_a)][j];
-    if (contact.body_b >= 0) sum += contact.tangent_b[j] * velocity[static_cast<Index>(contact.body_b)][j];
+py::list as_words(const std::vector<ContactMode>& modes) {
+  py::list words;
+  for (const ContactMode mode : modes) words.append(py::str(to_string(mode)));
+  return words;
+}
+
+// The fields of tumble.lcp.Motions, each motion as (z, modes, velocities with a row for each contact).
+py::dict motions_dict(const ContactMotions& found) {
+  py::list motions;
+  for (const ContactMotion& motion : found.motions) {
+    const auto count = static_cast<py::ssize_t>(motion.modes.size());
+    motions.append(py::make_tuple(to_numpy(motion.z), as_words(motion.modes), to_numpy(motion.velocities, count, 2)));
   }
-  return sum;
+  return py::dict("status"_a = py::str(to_string(found.status)), "motions"_a = motions,
+                  "has_between"_a = found.has_between);
 }
 
 py::dict solve_contacts(const py::handle& J_n, const py::handle& J_t, const py::handle& inverse_mass,
                         const py::handle& velocity, const py::handle& friction, const py::handle& offset,
-                        const py::handle& method, const py::dict& settings) {
+                        const py::handle& method, bool wants_motions, const py::dict& settings) {
   const ContactSystem system = as_system(J_n, J_t, inverse_mass, velocity, friction, offset);
   const LcpSettings chosen = as_settings(method, settings);
-  LcpResult result;
-  std::vector<Vector3> after;
+  ContactSolution solution;
+  ContactMotions motions;
   {
     const py::gil_scoped_release without_gil;
-    result = solve_lcp(as_lcp(system), chosen);
-    after = velocities_after(system, result.z);
-  }
-  const Index k = system.contacts.size();
-  std::vector<double> normal(k), tangential(k), slip(k);
-  py::list modes;
-  for (Index i = 0; i < k; ++i) {
-    normal[i] = result.z[i];
-    tangential[i] = result.z[k + 2 * i] - result.z[k + 2 * i + 1];
-    slip[i] = result.z[3 * k + i];
-    const bool is_left = tangential_velocity(system.contacts[i], after) < 0.0;
-    const ContactMode mode = normal[i] == 0.0 ? ContactMode::open
-                             : slip[i] == 0.0 ? ContactMode::stick
-                             : is_left        ? ContactMode::slip_left
-                                              : ContactMode::slip_right;
-    modes.append(py::str(to_string(mode)));
+    solution = tumble::solve_contacts(system, chosen);
+    if (wants_motions) motions = tumble::contact_motions(system);
   }
   std::vector<double> velocities;
-  for (const Vector3& v : after) velocities.insert(velocities.end(), v.begin(), v.end());
-  return py::dict("normal_impulse"_a = to_numpy(normal), "friction_impulse"_a = to_numpy(tangential),
-                  "slip_speed"_a = to_numpy(slip), "mode"_a = modes, "velocity"_a = to_numpy(velocities),
-                  "result"_a = as_dict(result));
+  for (const Vector3& v : solution.velocity) velocities.insert(velocities.end(), v.begin(), v.end());
+  py::object of_motions = py::none();
+  if (wants_motions) of_motions = motions_dict(motions);
+  return py::dict("normal_impulse"_a = to_numpy(solution.normal_impulse),
+                  "friction_impulse"_a = to_numpy(solution.friction_impulse),
+                  "slip_speed"_a = to_numpy(solution.slip_speed), "mode"_a = as_words(solution.mode),
+                  "velocity"_a = to_numpy(velocities), "result"_a = as_dict(solution.result), "motions"_a = of_motions);
+}
+
+py::dict contact_motions(const py::handle& M, const py::handle& q, const py::handle& row_sizes) {
+  const LcpProblem problem = as_problem(M, q, row_sizes);
+  ContactMotions motions;
+  {
+    const py::gil_scoped_release without_gil;
+    motions = tumble::contact_motions(problem);
+  }
+  return motions_dict(motions);
+}
+
+// One array for each field of OneContactSolution.
+py::dict solve_one_contacts(const py::handle& A_nn, const py::handle& A_nt, const py::handle& A_tt,
+                            const py::handle& b_n, const py::handle& b_t, const py::handle& friction) {
+  const Array nn = as_array(A_nn, "A_nn", {-1});
+  const py::ssize_t count = nn.size();
+  const Array nt = as_array(A_nt, "A_nt", {count}), tt = as_array(A_tt, "A_tt", {count});
+  const Array n = as_array(b_n, "b_n", {count}), t = as_array(b_t, "b_t", {count});
+  const Array mu = as_array(friction, "friction", {count});
+  py::array_t<double> f_n(count), f_t(count), slip_speed(count), residual(count);
+  py::array_t<std::uint8_t> mode(count), status(count);
+  const auto size = static_cast<Index>(count);
+  const auto in = [&](const Array& array) { return std::span(array.data(), size); };
+  const OneContactArrays contacts{in(nn), in(nt), in(tt), in(n), in(t), in(mu)};
+  const auto out = [&](py::array_t<double>& array) { return std::span(array.mutable_data(), size); };
+  const OneContactSolutionArrays solutions{out(f_n),
+                                           out(f_t),
+                                           out(slip_speed),
+                                           out(residual),
+                                           {reinterpret_cast<ContactMode*>(mode.mutable_data()), size},
+                                           {reinterpret_cast<LcpStatus*>(status.mutable_data()), size}};
+  {
+    const py::gil_scoped_release without_gil;
+    tumble::solve_one_contacts(contacts, solutions);
+  }
+  return py::dict("f_n"_a = f_n, "f_t"_a = f_t, "slip_speed"_a = slip_speed, "residual"_a = residual, "mode"_a = mode,
+                  "status"_a = status);
 }
 
 }  // namespace
@@ -145,7 +184,15 @@ void bind_contacts(py::module_& module) {
   module.def("contact_problem", &contact_problem, "J_n"_a, "J_t"_a, "inverse_mass"_a, "velocity"_a, "friction"_a,
              "offset"_a);
   module.def("solve_contacts", &solve_contacts, "J_n"_a, "J_t"_a, "inverse_mass"_a, "velocity"_a, "friction"_a,
-             "offset"_a, "method"_a, "settings"_a);
+             "offset"_a, "method"_a, "wants_motions"_a, "settings"_a);
+  module.def("contact_motions", &contact_motions, "M"_a, "q"_a, "row_sizes"_a);
+  module.def("solve_one_contacts", &solve_one_contacts, "A_nn"_a, "A_nt"_a, "A_tt"_a, "b_n"_a, "b_t"_a, "friction"_a);
+  py::list modes;
+  for (const ContactMode mode :
+       {ContactMode::open, ContactMode::stick, ContactMode::slip_left, ContactMode::slip_right}) {
+    modes.append(py::str(to_string(mode)));
+  }
+  module.attr("MODES") = py::tuple(modes);
 }
 
 }  // namespace tumble::python

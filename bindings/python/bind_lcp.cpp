@@ -10,8 +10,10 @@
 
 #include "convert_lcp.hpp"
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
 #include "tumble/lcp/enumerate.hpp"
+#include "tumble/lcp/exact.hpp"
 #include "tumble/lcp/methods.hpp"
 #include "tumble/lcp/problem_text.hpp"
 #include "tumble/lcp/residual.hpp"
@@ -30,6 +32,18 @@ py::object without_bools(const py::handle& object) {
   return Array::ensure(array);
 }
 
+py::array_t<bool> as_bools(const std::vector<std::uint8_t>& basis) {
+  py::array_t<bool> array(static_cast<py::ssize_t>(basis.size()));
+  for (std::size_t i = 0; i < basis.size(); ++i) array.mutable_data()[i] = basis[i] != 0;
+  return array;
+}
+
+py::list as_list(const std::vector<std::string>& words) {
+  py::list list;
+  for (const std::string& word : words) list.append(py::str(word));
+  return list;
+}
+
 bool is_list(const LcpSettings& settings, const std::string& name) {
   const std::vector<NamedSetting> all = named_settings(settings);
   return std::any_of(all.begin(), all.end(), [&](const NamedSetting& setting) {
@@ -41,19 +55,6 @@ SettingValue as_setting(const LcpSettings& settings, const std::string& name, co
   if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
   if (is_list(settings, name)) return as_vector(as_array(without_bools(value), name.c_str(), {-1}));
   return as_number(value, name.c_str());
-}
-
-LcpProblem as_problem(const py::handle& M, const py::handle& q, const py::handle& row_sizes = py::none()) {
-  const Array vector = as_array(q, "q", {-1});
-  const Array matrix = as_array(M, "M", {-1, -1});
-  const py::ssize_t n = vector.size();
-  if (matrix.shape(0) != n || matrix.shape(1) != n) {
-    throw std::invalid_argument(fmt::format("M: must have shape ({0}, {0}) for q of length {0}, got ({1}, {2})", n,
-                                            matrix.shape(0), matrix.shape(1)));
-  }
-  LcpProblem problem{as_vector(matrix), as_vector(vector), {}};
-  if (!row_sizes.is_none()) problem.row_sizes = as_vector(as_array(row_sizes, "row_sizes", {n}));
-  return problem;
 }
 
 py::dict solve(const py::handle& M, const py::handle& q, const py::handle& method, const py::handle& row_sizes,
@@ -146,23 +147,33 @@ struct BatchArrays {
   }
 };
 
-// work(begin, end) for parts of 0 .. count - 1, by `num_threads` threads.
+// work(begin, end) for parts of 0 .. count - 1, by `num_threads` threads. To be called without the GIL; between two
+// parts of its own the calling thread looks for Ctrl-C, which raises KeyboardInterrupt after the parts begun.
 template <class MakeWork>
 void in_parallel(std::size_t count, std::size_t num_threads, const MakeWork& make_work) {
   constexpr std::size_t part = 64;
   std::atomic<std::size_t> next = 0;
-  const auto run = [&] {
+  const auto run = [&](const auto& after_part) {
     auto work = make_work();
     for (std::size_t begin = next.fetch_add(part); begin < count; begin = next.fetch_add(part)) {
       work(begin, std::min(begin + part, count));
+      after_part();
     }
   };
   std::vector<std::future<void>> others;
   for (std::size_t i = 1; i < std::min(num_threads, count / part + 1); ++i) {
-    others.push_back(std::async(std::launch::async, run));
+    others.push_back(std::async(std::launch::async, [&] { run([] {}); }));
   }
-  run();
+  bool is_interrupted = false;
+  run([&] {
+    const py::gil_scoped_acquire with_gil;
+    is_interrupted = PyErr_CheckSignals() != 0;
+    if (is_interrupted) next = count;
+  });
   for (std::future<void>& other : others) other.get();
+  if (!is_interrupted) return;
+  const py::gil_scoped_acquire with_gil;
+  throw py::error_already_set();
 }
 
 py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle& method, const py::handle& row_sizes,
@@ -215,6 +226,26 @@ py::list all_solutions(const py::handle& M, const py::handle& q, double accepted
   return solutions;
 }
 
+// The fields of tumble.lcp.ExactResult, numbers as text. `basis` is None for Lemke's method.
+py::dict exact(std::vector<std::string> M, std::vector<std::string> q, const py::handle& basis) {
+  const ExactLcp problem{std::move(M), std::move(q)};
+  std::vector<std::uint8_t> start;
+  if (!basis.is_none()) {
+    for (const double x : as_vector(as_array(without_bools(basis), "basis", {-1}))) {
+      if (x != 0.0 && x != 1.0) throw std::invalid_argument(fmt::format("basis: must be zeros and ones, got {}", x));
+      start.push_back(x != 0.0);
+    }
+  }
+  ExactResult result;
+  {
+    const py::gil_scoped_release without_gil;
+    result = basis.is_none() ? exact_lemke(problem) : exact_solution(problem, start);
+  }
+  return py::dict("status"_a = py::str(to_string(result.status)), "z"_a = as_list(result.z), "w"_a = as_list(result.w),
+                  "basis"_a = as_bools(result.basis), "certificate"_a = as_list(result.certificate),
+                  "pivots"_a = result.pivots);
+}
+
 // (negative_w, negative_z, complementarity)
 py::tuple residual_parts(const py::handle& M, const py::handle& q, const py::handle& z, const py::handle& row_sizes) {
   const LcpResidual parts = residual(as_problem(M, q, row_sizes), as_vector(as_array(z, "z", {-1})));
@@ -258,6 +289,19 @@ py::tuple as_names(const Names& values) {
 
 }  // namespace
 
+LcpProblem as_problem(const py::handle& M, const py::handle& q, const py::handle& row_sizes) {
+  const Array vector = as_array(q, "q", {-1});
+  const Array matrix = as_array(M, "M", {-1, -1});
+  const py::ssize_t n = vector.size();
+  if (matrix.shape(0) != n || matrix.shape(1) != n) {
+    throw std::invalid_argument(fmt::format("M: must have shape ({0}, {0}) for q of length {0}, got ({1}, {2})", n,
+                                            matrix.shape(0), matrix.shape(1)));
+  }
+  LcpProblem problem{as_vector(matrix), as_vector(vector), {}};
+  if (!row_sizes.is_none()) problem.row_sizes = as_vector(as_array(row_sizes, "row_sizes", {n}));
+  return problem;
+}
+
 void set_setting(LcpSettings& settings, const std::string& name, const SettingValue& value) {
   try {
     set_by_name(settings, name, value);
@@ -279,8 +323,6 @@ LcpSettings as_settings(const py::handle& method, const py::dict& settings) {
 }
 
 py::dict as_dict(const LcpResult& result) {
-  py::array_t<bool> basis(static_cast<py::ssize_t>(result.basis.size()));
-  for (std::size_t i = 0; i < result.basis.size(); ++i) basis.mutable_data()[i] = result.basis[i] != 0;
   const LcpResidual& parts = result.parts;
   py::object certificate = py::none();
   if (!result.certificate.empty()) certificate = to_numpy(result.certificate);
@@ -288,7 +330,8 @@ py::dict as_dict(const LcpResult& result) {
                   "w"_a = to_numpy(result.w), "residual"_a = result.residual,
                   "parts"_a = py::make_tuple(parts.negative_w, parts.negative_z, parts.complementarity),
                   "pivots"_a = result.pivots, "refactorisations"_a = result.refactorisations,
-                  "rung"_a = py::str(to_string(result.rung)), "basis"_a = basis, "certificate"_a = certificate);
+                  "rung"_a = py::str(to_string(result.rung)), "basis"_a = as_bools(result.basis),
+                  "certificate"_a = certificate);
 }
 
 void bind_lcp(py::module_& module) {
@@ -296,6 +339,7 @@ void bind_lcp(py::module_& module) {
   module.def("solve_batch", &solve_batch, "M"_a, "q"_a, "method"_a, "row_sizes"_a, "start"_a, "threads"_a,
              "settings"_a);
   module.def("all_solutions", &all_solutions, "M"_a, "q"_a, "accepted_residual"_a);
+  module.def("exact", &exact, "M"_a, "q"_a, "basis"_a);
   module.def("residual", &residual_parts, "M"_a, "q"_a, "z"_a, "row_sizes"_a);
   module.def("parse_lcp", &parse_text, "text"_a, "name"_a);
   module.def("methods", &methods);

@@ -9,6 +9,9 @@
 
 namespace tumble::python {
 
+// Raises ValueError for shapes that do not fit.
+LcpProblem as_problem(const py::handle& M, const py::handle& q, const py::handle& row_sizes = py::none());
+
 // The method's defaults, changed by the keyword arguments in `settings`. Raises ValueError for an unknown method or a
 // value of the wrong kind, TypeError for a setting that the method does not have.
 LcpSettings as_settings(const py::handle& method, const py::dict& settings);

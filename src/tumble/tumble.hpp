@@ -3,6 +3,7 @@
 
 #include "tumble/drop/drop.hpp"
 #include "tumble/drop/parameters.hpp"
+#include "tumble/lcp/contact_motions.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/lcp/dantzig.hpp"
 #include "tumble/lcp/enumerate.hpp"
@@ -21,5 +22,6 @@
 #include "tumble/lcp/result.hpp"
 #include "tumble/lcp/solution_face.hpp"
 #include "tumble/lcp/solve.hpp"
+#include "tumble/lcp/solve_contacts.hpp"
 #include "tumble/math/sin_cos.hpp"
 #include "tumble/math/vector.hpp"

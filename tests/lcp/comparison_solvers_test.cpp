@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../random_contact.hpp"
+#include "other_units.hpp"
 #include <gtest/gtest.h>
 
 #include "tumble/lcp/contact_system.hpp"
@@ -430,29 +431,12 @@ TEST(ComparisonSolvers, SayWhichMatricesGaussSeidelCannotTake) {
   EXPECT_EQ(nlgs({{1, 0, 0, -1}, {-1, -1}, {}}).status, LcpStatus::numerical);
 }
 
-// Other units of mass, length and time, by powers of two.
-ContactSystem in_other_units(const ContactSystem& system, int mass, int length, int time) {
-  ContactSystem other = system;
-  for (Vector3& m : other.inverse_mass) {
-    m = {std::ldexp(m[0], -mass), std::ldexp(m[1], -mass), std::ldexp(m[2], -mass - 2 * length)};
-  }
-  for (Vector3& v : other.velocity) {
-    v = {std::ldexp(v[0], length - time), std::ldexp(v[1], length - time), std::ldexp(v[2], -time)};
-  }
-  for (BodyContact& contact : other.contacts) {
-    for (Vector3* row : {&contact.normal_a, &contact.normal_b, &contact.tangent_a, &contact.tangent_b}) {
-      (*row)[2] = std::ldexp((*row)[2], length);
-    }
-  }
-  return other;
-}
-
 TEST(ComparisonSolvers, GiveTheScaledSolutionBitForBitInOtherUnits) {
   test::Random random(37);
   for (int i = 0; i < 100; ++i) {
     const ContactSystem system = random_system(random, 3, 1.0);
     const LcpProblem problem = as_lcp(system);
-    const LcpProblem other = as_lcp(in_other_units(system, 13, -9, 6));
+    const LcpProblem other = as_lcp(test::in_other_units(system, 13, -9, 6));
     const std::size_t k = system.contacts.size();
     for (const Solver& solver : solvers()) {
       const LcpResult a = solve_lcp(problem, solver.settings);

@@ -144,3 +144,67 @@ def test_bad_systems_are_refused_by_name(change: dict[str, object], message: str
 def test_a_contact_has_two_bodies_at_most() -> None:
     with pytest.raises(ValueError, match=r"J_n\[0\], J_t\[0\]: must touch at most two bodies, got 0, 1, 2"):
         lcp.contact_problem(np.ones((1, 9)), np.ones((1, 9)), np.ones(9), np.ones(9), 0.5)
+
+
+BOX = {
+    "J_n": [[0, 1, -0.5], [0, 1, 0.5]],
+    "J_t": [[1, 0, 0.25], [1, 0, 0.25]],
+    "inverse_mass": [1.0, 1.0, 10.0],
+    "velocity": [0.1, -1.0, 0.0],
+    "friction": 0.5,
+}
+
+
+def test_a_box_has_one_motion_and_many_impulses() -> None:
+    box = lcp.solve_contacts(**BOX, motions=True)
+    M, q, row_sizes = lcp.contact_problem(**BOX)
+    assert len(lcp.all_solutions(M, q)) > 1
+    assert box.motions is not None and box.motions.is_unique and box.motions.status == "solved"
+    same = lcp.contact_motions(M, q, row_sizes)
+    assert same.is_unique
+    for motion in (box.motions.motions[0], same.motions[0]):
+        J = np.stack([BOX["J_n"], BOX["J_t"]])
+        np.testing.assert_allclose(motion.velocities, (J @ box.velocity).T, atol=ROUND_OFF)
+        assert motion.z.shape == (8,) and len(motion.modes) == 2
+    assert lcp.solve_contacts(**BOX).motions is None
+
+
+def test_a_wedge_has_a_continuum_of_motions() -> None:
+    opposed = {"J_n": [[1, 0, 0], [-1, 0, 0]], "J_t": [[0, -1, 0], [0, 1, 0]], "inverse_mass": [1, 1, 1]}
+    wedge = lcp.solve_contacts(**opposed, velocity=[0, -1, 0], friction=0.5, motions=True).motions
+    assert wedge is not None and wedge.has_between and not wedge.is_unique
+    assert sorted(motion.modes for motion in wedge.motions) == [["open", "open"], ["stick", "stick"]]
+
+
+def test_motions_are_for_few_contacts() -> None:
+    system = random_system(0, 2, 4)
+    with pytest.raises(ValueError, match="q: enumeration takes at most 12 entries"):
+        lcp.solve_contacts(**system, motions=True)
+    with pytest.raises(ValueError, match="M: must be the matrix of planar contacts"):
+        lcp.contact_motions([[2, 1], [1, 2]], [-5, -6])
+
+
+def test_single_contacts_side_by_side_are_those_of_solve() -> None:
+    random = np.random.default_rng(7)
+    count = 300
+    root = random.standard_normal((count, 2, 2))
+    A = root @ root.transpose(0, 2, 1) + 0.01 * np.eye(2)
+    b, friction = random.standard_normal((count, 2)), random.uniform(0, 2, count)
+    found = lcp.solve_one_contacts(A[:, 0, 0], A[:, 0, 1], A[:, 1, 1], b[:, 0], b[:, 1], friction)
+    assert (found.status == "solved").all() and (found.residual < ROUND_OFF).all()
+    assert set(found.mode) == {"open", "stick", "slip left", "slip right"}
+    for i in range(count):
+        n, t, s = A[i, 0, 0], A[i, 0, 1], A[i, 1, 1]
+        M = [[n, t, -t, 0], [t, s, -s, 1], [-t, -s, s, 1], [friction[i], -1, -1, 0]]
+        f_n, plus, minus, slip_speed = lcp.solve(M, [b[i, 0], b[i, 1], -b[i, 1], 0]).z
+        # A has a condition of up to 1e3 here.
+        np.testing.assert_allclose([found.f_n[i], found.f_t[i], found.slip_speed[i]], [f_n, plus - minus, slip_speed], atol=1e-12)
+
+
+def test_single_contacts_report_what_is_none() -> None:
+    found = lcp.solve_one_contacts([1, np.nan], [0, 0], [1, 1], [-1, -1], [0, 0], [0.5, 0.5])
+    assert found.status.tolist() == ["solved", "numerical"] and found.f_n.tolist() == [1.0, 0.0]
+    empty = lcp.solve_one_contacts([], [], [], [], [], [])
+    assert empty.f_n.shape == empty.mode.shape == (0,)
+    with pytest.raises(ValueError, match=r"b_t: must have shape \(2,\), got \(1,\)"):
+        lcp.solve_one_contacts([1, 1], [0, 0], [1, 1], [-1, -1], [0], [0.5, 0.5])

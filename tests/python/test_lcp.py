@@ -1,5 +1,10 @@
 """tumble.lcp: solvers for any linear complementarity problem, from Python."""
 
+import _thread
+import threading
+import time
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -279,3 +284,77 @@ def test_unknown_settings_are_type_errors_that_list_the_known() -> None:
 def test_parse_reads_the_text_of_the_command_line() -> None:
     M, q = lcp.parse("M\n2 1 # a comment\n1 2\nq\n-5 -1/2\n")
     assert np.array_equal(M, [[2, 1], [1, 2]]) and np.array_equal(q, [-5, -0.5])
+
+
+def test_exact_answers_are_fractions() -> None:
+    M, q = [["1", "1/3"], [Fraction(1, 3), 2]], ["-0.1", np.int64(-1)]
+    found = lcp.exact(M, q)
+    assert found.status == "solved" and found.certificate is None and found.basis.tolist() == [False, True]
+    assert found.z == [0, Fraction(1, 2)] and found.w == [Fraction(-1, 10) + Fraction(1, 6), 0]
+    assert lcp.exact(M, q, found).z == lcp.exact(M, q, [0, 1]).z == found.z
+
+
+@given(st.integers(0, 10**6), st.integers(1, 6))
+@settings(max_examples=50, deadline=None, derandomize=True)
+def test_the_basis_of_a_result_gives_its_exact_solution(seed: int, n: int) -> None:
+    random = np.random.default_rng(seed)
+    root = random.standard_normal((n, n))
+    M, q = root @ root.T + np.eye(n), random.standard_normal(n)
+    result = lcp.solve(M, q)
+    found = lcp.exact(M, q, result)
+    assert found.status == "solved" and found.basis.tolist() == result.basis.tolist()
+    np.testing.assert_allclose([float(z) for z in found.z], result.z, rtol=1e-9, atol=1e-12)  # condition up to 1e3
+    for i in range(n):
+        assert found.w[i] == sum(Fraction(M[i, j]) * found.z[j] for j in range(n)) + Fraction(q[i])
+        assert found.z[i] * found.w[i] == 0 and min(found.z[i], found.w[i]) >= 0
+    assert lcp.exact(M, q).z == found.z  # M is a P-matrix: one solution
+
+
+def test_exact_proves_that_there_is_no_solution() -> None:
+    M, q = [[-1, 2], [-1, -1]], [1, -1]
+    found = lcp.exact(M, q)
+    y = found.certificate
+    assert found.status == "infeasible" and y is not None and found.z == []
+    assert min(y) >= 0 and all(sum(M[i][j] * y[i] for i in range(2)) <= 0 for j in range(2))
+    assert sum(q[i] * y[i] for i in range(2)) < 0
+    assert lcp.exact([[1]], [-1], [0]).status == "no_solution_proved"  # of that basis
+
+
+@pytest.mark.parametrize(
+    ("M", "q", "message"),
+    [
+        ([[1, "a third"], [1, 2]], [1, 2], r"M\[0\]\[1\]"),
+        ([[1, 2], [np.nan, 2]], [1, 2], r"M\[1\]\[0\]: must be a finite number, got nan"),
+        ([[1]], [np.inf], r"q\[0\]: must be a finite number, got inf"),
+        ([[1]], [None], r"q\[0\]: must be a finite number, got None"),
+        ([[1, 2]], [1, 2], r"M: must have shape \(2, 2\)"),
+        (["12", "34"], [1, 2], r"M: must have shape \(2, 2\)"),
+        (np.eye(41), np.ones(41), "40"),
+    ],
+)
+def test_exact_names_what_is_no_number(M: object, q: object, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        lcp.exact(M, q)  # type: ignore[arg-type]
+
+
+def test_exact_takes_a_basis_of_zeros_and_ones() -> None:
+    with pytest.raises(ValueError, match="basis: must be zeros and ones, got 2"):
+        lcp.exact([[1]], [-1], [2])
+    with pytest.raises(ValueError, match="basis: must have 1 entries like q, got 2"):
+        lcp.exact([[1]], [-1], [0, 1])
+
+
+def test_a_batch_ends_at_ctrl_c() -> None:
+    M, q = random_contacts(6, 2)
+    slow: dict[str, object] = {"method": "lemke_lu", "precision": "quad"}
+    begin = time.perf_counter()
+    lcp.solve_batch(M[1], np.tile(q[1], (50, 1)), **slow)  # type: ignore[arg-type]
+    seconds_each = (time.perf_counter() - begin) / 50
+    whole = np.tile(q[1], (int(20.0 / seconds_each), 1))  # would take 20 s on one thread
+    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer.start()
+    begin = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        lcp.solve_batch(M[1], whole, threads=2, **slow)  # type: ignore[arg-type]
+    timer.join()
+    assert time.perf_counter() - begin < 5.0

@@ -8,16 +8,18 @@ a contact, z_i is an impulse and w_i a velocity: either the bodies press, or the
 >>> result.status, result.z
 ('solved', array([1.33333333, 2.33333333]))
 
-`solve` for one problem, `solve_batch` for many of one size, `solve_contacts` for bodies in contact, `all_solutions` for
-every solution of a small one. `METHODS` says what each method does. Theory: docs/theory/lcp.md.
+`solve` for one problem, `solve_batch` for many of one size, `solve_contacts` for bodies in contact, `solve_one_contacts`
+for many single contacts. `all_solutions` for every solution of a small problem, `contact_motions` for every motion,
+`exact` for fractions in place of rounded numbers. `METHODS` says what each method does. Theory: docs/theory/lcp.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,16 +30,23 @@ __all__ = [
     "METHODS",
     "BatchResult",
     "ContactResult",
+    "ExactResult",
+    "Motion",
+    "Motions",
+    "OneContacts",
     "Residual",
     "Result",
     "all_solutions",
+    "contact_motions",
     "contact_problem",
     "default_settings",
+    "exact",
     "parse",
     "residual",
     "solve",
     "solve_batch",
     "solve_contacts",
+    "solve_one_contacts",
 ]
 
 METHODS: Mapping[str, str] = MappingProxyType(_core.methods())
@@ -45,6 +54,7 @@ METHODS: Mapping[str, str] = MappingProxyType(_core.methods())
 
 _STATUSES = np.array(_core.STATUSES)
 _RUNGS = np.array(_core.RUNGS)
+_MODES = np.array(_core.MODES)
 
 
 @dataclass(frozen=True)
@@ -155,6 +165,99 @@ class BatchResult:
 
 
 @dataclass(frozen=True)
+class ExactResult:
+    """What rational arithmetic says of a problem: nothing is rounded.
+
+    Attributes
+    ----------
+    status : str
+        As in `Result`. "solved", "infeasible" and "no_solution_proved" are proofs here; the last one, where a basis was
+        given, speaks of that basis alone.
+    z, w : list of Fraction
+        n entries, or none if there is no solution to show.
+    basis : ndarray of bool, shape (n,)
+        True where w_i = 0 by choice, False where z_i = 0.
+    certificate : list of Fraction, or None
+        As in `Result`.
+    pivots : int
+    """
+
+    status: str
+    z: list[Fraction]
+    w: list[Fraction]
+    basis: NDArray[np.bool_]
+    certificate: list[Fraction] | None
+    pivots: int
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One motion of k contacts, the same for all solutions whose impulses move the bodies alike.
+
+    Attributes
+    ----------
+    z : ndarray, shape (n,)
+        One of these solutions.
+    modes : list of str
+        "open", "stick", "slip left" or "slip right" for each contact, as z has them.
+    velocities : ndarray, shape (k, 2)
+        u_n, u_t at each contact.
+    """
+
+    z: NDArray[np.float64]
+    modes: list[str]
+    velocities: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motions:
+    """All motions that contacts allow.
+
+    Attributes
+    ----------
+    status : str
+        As in `Result`.
+    motions : list of Motion
+        Empty if there is no solution.
+    has_between : bool
+        Some of the motions belong to a continuum of solutions: there are infinitely many.
+    """
+
+    status: str
+    motions: list[Motion]
+    has_between: bool
+
+    @property
+    def is_unique(self) -> bool:
+        """True if there is exactly one motion, however many impulses cause it."""
+        return len(self.motions) == 1 and not self.has_between
+
+
+@dataclass(frozen=True)
+class OneContacts:
+    """N contacts, each on its own; arrays of shape (N,).
+
+    Attributes
+    ----------
+    f_n, f_t : ndarray
+        Normal force or impulse, >= 0, and friction along +t.
+    slip_speed : ndarray
+        abs(u_t).
+    mode, status : ndarray of str
+        As in `ContactResult` and `Result`; the status is "solved" or "numerical".
+    residual : ndarray
+        As in `Result`.
+    """
+
+    f_n: NDArray[np.float64]
+    f_t: NDArray[np.float64]
+    slip_speed: NDArray[np.float64]
+    mode: NDArray[np.str_]
+    status: NDArray[np.str_]
+    residual: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
 class ContactResult:
     """The impulses of k contacts between b bodies, and the motion after them.
 
@@ -172,6 +275,8 @@ class ContactResult:
         After the impulses, v + M^-1 J^T f: (vx, vy, omega) of each body [m/s, m/s, rad/s].
     result : Result
         Of the LCP; check its `status`.
+    motions : Motions or None
+        All motions, if asked for: ``motions.is_unique`` tells whether `velocity` is the only outcome.
     """
 
     normal_impulse: NDArray[np.float64]
@@ -180,11 +285,17 @@ class ContactResult:
     mode: list[str]
     velocity: NDArray[np.float64]
     result: Result
+    motions: Motions | None = None
 
 
 def _as_result(fields: dict[str, Any]) -> Result:
     parts = Residual(*fields.pop("parts"))
     return Result(parts=parts, **fields)
+
+
+def _as_motions(fields: dict[str, Any]) -> Motions:
+    motions = [Motion(*motion) for motion in fields.pop("motions")]
+    return Motions(motions=motions, **fields)
 
 
 def _start_name(method: str) -> str:
@@ -441,6 +552,7 @@ def solve_contacts(
     method: str = "robust",
     *,
     start: ContactResult | Result | ArrayLike | None = None,
+    motions: bool = False,
     **settings: Any,
 ) -> ContactResult:
     """The impulses of k planar contacts with friction between b bodies, and the motion after them.
@@ -451,6 +563,8 @@ def solve_contacts(
         As for `contact_problem`.
     method, start, **settings
         As for `solve`. In a simulation, pass the result of the last step as `start` while the contacts stay the same.
+    motions : bool
+        Also find all motions, see `contact_motions`; at most 3 contacts.
 
     Returns
     -------
@@ -459,7 +573,7 @@ def solve_contacts(
     Raises
     ------
     ValueError, TypeError
-        As `contact_problem` and `solve`.
+        As `contact_problem` and `solve`, and for `motions` of more than 3 contacts.
 
     Examples
     --------
@@ -472,13 +586,100 @@ def solve_contacts(
     (['stick'], array([2.]), array([-0.333333]))
     >>> (hit.velocity + 0.0).round(6)
     array([-0.166667,  0.      ,  1.666667])
+
+    A box lands flat on two corners. Friction at one may pull against the other, but the box stops all the same:
+
+    >>> box = solve_contacts(
+    ...     [[0, 1, -0.5], [0, 1, 0.5]],
+    ...     [[1, 0, 0.25], [1, 0, 0.25]],
+    ...     inverse_mass=[1, 1, 10],
+    ...     velocity=[0, -1, 0],
+    ...     friction=0.5,
+    ...     motions=True,
+    ... )
+    >>> box.motions.is_unique, box.motions.motions[0].modes
+    (True, ['stick', 'stick'])
     """
     first = start.result if isinstance(start, ContactResult) else start
     fields = _core.solve_contacts(
-        J_n, J_t, inverse_mass, velocity, friction, offset, method, _with_start(method, first, settings)
+        J_n, J_t, inverse_mass, velocity, friction, offset, method, motions, _with_start(method, first, settings)
     )
-    result = _as_result(fields.pop("result"))
-    return ContactResult(result=result, **fields)
+    result, found = _as_result(fields.pop("result")), fields.pop("motions")
+    return ContactResult(result=result, motions=None if found is None else _as_motions(found), **fields)
+
+
+def solve_one_contacts(
+    A_nn: ArrayLike, A_nt: ArrayLike, A_tt: ArrayLike, b_n: ArrayLike, b_t: ArrayLike, friction: ArrayLike
+) -> OneContacts:
+    """N contacts, each the only one of its body, in closed form: a few nanoseconds each.
+
+    For each of them u = A f + b, the velocity (u_n, u_t) after the force or impulse f = (f_n, f_t).
+
+    Parameters
+    ----------
+    A_nn, A_nt, A_tt : array_like, shape (N,)
+        The entries of A, which is symmetric and positive definite: J_n M^-1 J_n^T, J_n M^-1 J_t^T, J_t M^-1 J_t^T.
+    b_n, b_t : array_like, shape (N,)
+        The velocity before; b_n is whatever must become >= 0.
+    friction : array_like, shape (N,)
+        Coefficients of friction, >= 0.
+
+    Returns
+    -------
+    OneContacts
+        A contact whose numbers break the rules above, or are not finite, gets the status "numerical".
+
+    Raises
+    ------
+    ValueError
+        For arrays of different lengths or that are none.
+
+    Examples
+    --------
+    >>> hits = solve_one_contacts([1, 1], [0, 0], [1, 1], b_n=[-2, 1], b_t=[0.5, 3], friction=[0.5, 0.5])
+    >>> hits.mode, hits.f_n
+    (array(['stick', 'open'], dtype='<U10'), array([2., 0.]))
+    """
+    fields = _core.solve_one_contacts(A_nn, A_nt, A_tt, b_n, b_t, friction)
+    mode, status = _MODES[fields.pop("mode")], _STATUSES[fields.pop("status")]
+    return OneContacts(mode=mode, status=status, **fields)
+
+
+def contact_motions(M: ArrayLike, q: ArrayLike, row_sizes: ArrayLike | None = None) -> Motions:
+    """All motions of up to three contacts with friction, from all solutions of their LCP.
+
+    Impulses are often not unique, and it seldom matters: several solutions can move the bodies in the same way. With
+    much friction the motion itself may not be unique either.
+
+    Parameters
+    ----------
+    M : array_like, shape (n, n)
+        Of planar contacts, as `contact_problem` makes it, in any order and scale of the unknowns; n <= 12.
+    q : array_like, shape (n,)
+    row_sizes : array_like, shape (n,), optional
+        See `residual`.
+
+    Returns
+    -------
+    Motions
+        Contacts in the order of their cone rows, +t along the first friction unknown, followed by normals without
+        friction.
+
+    Raises
+    ------
+    ValueError
+        As `solve`, for n > 12, and if M is not that of contacts, one of them with a friction cone.
+
+    Examples
+    --------
+    A rod leans so that pushing it pulls its tip into the ground. It may jam, slide on, or lift off:
+
+    >>> M = [[2.08, -2.88, 2.88, 0], [-2.88, 8.68, -8.68, 1], [2.88, -8.68, 8.68, 1], [3, -1, -1, 0]]
+    >>> found = contact_motions(M, [0.01, -1, 1, 0])
+    >>> found.is_unique, sorted(motion.modes[0] for motion in found.motions)
+    (False, ['open', 'slip left', 'stick'])
+    """
+    return _as_motions(_core.contact_motions(M, q, row_sizes))
 
 
 def all_solutions(M: ArrayLike, q: ArrayLike, accepted_residual: float = 1e-9) -> list[Result]:
@@ -509,6 +710,70 @@ def all_solutions(M: ArrayLike, q: ArrayLike, accepted_residual: float = 1e-9) -
     [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.333, 0.333]]
     """
     return [_as_result(fields) for fields in _core.all_solutions(M, q, accepted_residual)]
+
+
+_Number = Union[int, float, str, Fraction]
+
+
+def _as_texts(numbers: Iterable[Any], name: str) -> list[str]:
+    """Each number as a fraction in text: a float is the fraction it stores, a text means what it says."""
+    texts = []
+    for i, item in enumerate(numbers):
+        number = item.item() if isinstance(item, np.generic) else item
+        try:
+            texts.append(number if isinstance(number, str) else str(Fraction(number)))
+        except (TypeError, ValueError, OverflowError):
+            raise ValueError(f"{name}[{i}]: must be a finite number, got {number!r}") from None
+    return texts
+
+
+def exact(
+    M: Sequence[Sequence[_Number]] | NDArray[Any],
+    q: Sequence[_Number] | NDArray[Any],
+    basis: Result | ExactResult | ArrayLike | None = None,
+) -> ExactResult:
+    """One solution of the LCP (M, q) in rational arithmetic, or a proof that there is none.
+
+    Parameters
+    ----------
+    M : array_like, shape (n, n)
+        n <= 40. Entries are numbers, fractions or text: "1/3" and "0.1" mean just that, while the float 0.1 means
+        3602879701896397/36028797018963968, which is what it stores.
+    q : array_like, shape (n,)
+    basis : Result, ExactResult or array_like of 0 and 1, shape (n,), optional
+        Solve for this basis: 1 where w_i = 0, 0 where z_i = 0. With a `Result` it is proved right, or refuted. Left
+        out, Lemke's method with a lexicographic rule [1]_ looks for one.
+
+    Returns
+    -------
+    ExactResult
+
+    Raises
+    ------
+    ValueError
+        For shapes that do not fit, NaN, infinity, text that is no number, n > 40, and numbers that are too long.
+
+    References
+    ----------
+    .. [1] R. W. Cottle, J.-S. Pang, R. E. Stone: The Linear Complementarity Problem, 1992, section 4.9.
+
+    Examples
+    --------
+    >>> M, q = [["2", "1"], ["1", "2"]], ["-5", "-6.1"]
+    >>> [str(z) for z in exact(M, q).z]
+    ['13/10', '12/5']
+    >>> exact([[2, 1], [1, 2]], [-5, -6], solve([[2, 1], [1, 2]], [-5, -6])).z
+    [Fraction(4, 3), Fraction(7, 3)]
+    """
+    rows, length = list(M), len(q)
+    if len(rows) != length or any(isinstance(row, str) or len(row) != length for row in rows):
+        raise ValueError(f"M: must have shape ({length}, {length}) for q of length {length}")
+    entries = [text for i, row in enumerate(rows) for text in _as_texts(row, f"M[{i}]")]
+    if isinstance(basis, (Result, ExactResult)):
+        basis = basis.basis
+    fields = _core.exact(entries, _as_texts(q, "q"), basis)
+    z, w, certificate = (list(map(Fraction, fields.pop(name))) for name in ("z", "w", "certificate"))
+    return ExactResult(z=z, w=w, certificate=certificate or None, **fields)
 
 
 def residual(M: ArrayLike, q: ArrayLike, z: ArrayLike, row_sizes: ArrayLike | None = None) -> Residual:

@@ -140,6 +140,12 @@ LcpProblem as_lcp(const ContactSystem& system) {
   return problem;
 }
 
+ContactMode contact_mode(double normal_impulse, double slip_speed, double u_t) {
+  if (normal_impulse == 0.0) return ContactMode::open;
+  if (slip_speed == 0.0) return ContactMode::stick;
+  return u_t < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
+}
+
 std::vector<Vector3> velocities_after(const ContactSystem& system, const std::vector<double>& z) {
   validate(system);
   const Index num_contacts = system.contacts.size();

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tumble/lcp/one_contact.hpp"
 #include "tumble/lcp/problem.hpp"
 #include "tumble/math/vector.hpp"
 
@@ -41,6 +42,9 @@ void validate(const ContactSystem& system);
 //   mu c - b+ - b- >= 0      complementary to  s >= 0
 // Row sizes: the largest |u_n|, |u_t| before the impulses; that over the contact's own normal response for the cones.
 LcpProblem as_lcp(const ContactSystem& system);
+
+// What a contact does, from its entries of z and the tangential velocity after the impulses.
+ContactMode contact_mode(double normal_impulse, double slip_speed, double u_t);
 
 // Velocities of all bodies after the impulses in z: v + M^-1 J^T f.
 std::vector<Vector3> velocities_after(const ContactSystem& system, const std::vector<double>& z);

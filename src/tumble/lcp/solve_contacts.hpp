@@ -1,0 +1,25 @@
+// The impulses of contacts and the motion after them, from the Jacobians.
+#pragma once
+
+#include <vector>
+
+#include "tumble/lcp/contact_system.hpp"
+#include "tumble/lcp/solve.hpp"
+
+namespace tumble {
+
+struct ContactSolution {
+  LcpResult result;                      // of `as_lcp(system)`; check its status
+  std::vector<double> normal_impulse;    // per contact [N s], >= 0
+  std::vector<double> friction_impulse;  // per contact [N s], along +t
+  std::vector<double> slip_speed;        // per contact [m/s]; for an open one, a bound
+  std::vector<ContactMode> mode;         // per contact
+  std::vector<Vector3> velocity;         // per body, v + M^-1 J^T f
+};
+
+// Solves `as_lcp(system)`, by `robust` unless told otherwise. Throws as `validate` of the system, `as_lcp` and
+// `solve_lcp`; with a workspace, as `solve_lcp` with one.
+ContactSolution solve_contacts(const ContactSystem& system, const LcpSettings& settings = RobustSettings{});
+ContactSolution solve_contacts(const ContactSystem& system, const LcpSettings& settings, LcpWorkspace& workspace);
+
+}  // namespace tumble
