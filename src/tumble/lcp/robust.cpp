@@ -175,7 +175,7 @@ void run_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWork
 }
 
 void try_lemke_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
-  run_quad(problem, settings, workspace, {0.0, 1e-14, 1e-13});
+  run_quad(problem, settings, workspace, {0.0, 1e-14, 1e-15, 1e-13});
 }
 
 // For large problems.
