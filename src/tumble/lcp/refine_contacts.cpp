@@ -19,7 +19,7 @@ constexpr double k_round_off = 1e-13;
 // doubled up to 1e-12 are one.
 constexpr double k_rank_tolerance = 1e-11;
 
-constexpr int k_max_steps = 4;  // each gains the digits that the factors have, at least five where it works at all
+constexpr int k_max_steps = 4;  // each gains the digits that the factors have, five and more where it works at all
 
 // A sum in twice the digits of double [Ogita, Rump & Oishi 2005].
 struct LongSum {
@@ -72,20 +72,12 @@ class Refinement {
     return speed_ > 0.0 ? error / speed_ : 0.0;
   }
 
-  // True if the error became smaller; else nothing is changed.
-  bool improve() {
-    const double before = error();
-    const auto old_f = f_;
-    const auto old_u = u_;
-    const auto old_velocity = velocity_;
+  // One step. The error may grow in the first: huge impulses, rounded to double, leave a difference that moves light
+  // bodies, which the next step finds.
+  void improve() {
     correct();
     clamp();
     find_velocities();
-    if (error() < before) return true;
-    f_ = old_f;
-    u_ = old_u;
-    velocity_ = old_velocity;
-    return false;
   }
 
   RefinedContacts result() const {
@@ -251,9 +243,7 @@ class Refinement {
 RefinedContacts refine_contacts(const ContactSystem& system, const std::vector<double>& z) {
   Refinement refinement(system, z);
   if (refinement.error() <= k_round_off) return {};
-  for (int step = 0; step < k_max_steps && refinement.error() > k_round_off; ++step) {
-    if (!refinement.improve()) break;
-  }
+  for (int step = 0; step < k_max_steps && refinement.error() > k_round_off; ++step) refinement.improve();
   return refinement.error() <= k_round_off ? refinement.result() : RefinedContacts{};
 }
 
