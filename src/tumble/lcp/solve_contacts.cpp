@@ -1,6 +1,10 @@
 #include "tumble/lcp/solve_contacts.hpp"
 
 #include <utility>
+#include <variant>
+
+#include "tumble/lcp/refine_contacts.hpp"
+#include "tumble/lcp/residual.hpp"
 
 namespace tumble {
 namespace {
@@ -14,32 +18,57 @@ double tangential_velocity(const BodyContact& contact, const std::vector<Vector3
   return u_t;
 }
 
-// What z means for the contacts and the bodies.
-ContactSolution read_solution(const ContactSystem& system, LcpResult result) {
+// Impulses that satisfy the contacts better than A = J M^-1 J^T, which was rounded, can tell. They must be a solution
+// of the LCP all the same; it may have been taken for infeasible.
+void refine(const ContactSystem& system, const LcpProblem& problem, const LcpSettings& settings,
+            ContactSolution& solution) {
+  LcpResult& result = solution.result;
+  if (result.status == LcpStatus::bad_input) return;
+  RefinedContacts refined = refine_contacts(system, result.z);
+  if (refined.z.empty()) return;
+  const LcpResidual parts = residual(problem, refined.z);
+  const double accepted = std::visit([](const auto& chosen) { return chosen.accepted_residual; }, settings);
+  if (!(parts.largest() <= accepted)) return;
+  result.z = std::move(refined.z);
+  result.w = complement(problem, result.z);
+  result.parts = parts;
+  result.residual = parts.largest();
+  result.status = LcpStatus::solved;
+  result.certificate.clear();
+  solution.velocity = std::move(refined.velocity);
+}
+
+// What the result means for the contacts and the bodies.
+ContactSolution read_solution(const ContactSystem& system, const LcpProblem& problem, const LcpSettings& settings,
+                              LcpResult result) {
   const Index count = system.contacts.size();
   ContactSolution solution;
   if (result.z.empty()) result.z.assign(4 * count, 0.0);  // bad_input
   solution.velocity = velocities_after(system, result.z);
+  solution.result = std::move(result);
+  refine(system, problem, settings, solution);
+  const std::vector<double>& z = solution.result.z;
   for (Index i = 0; i < count; ++i) {
-    const double normal = result.z[i], slip = result.z[3 * count + i];
+    const double normal = z[i], slip = z[3 * count + i];
     const double u_t = tangential_velocity(system.contacts[i], solution.velocity);
     solution.normal_impulse.push_back(normal);
-    solution.friction_impulse.push_back(result.z[count + 2 * i] - result.z[count + 2 * i + 1]);
+    solution.friction_impulse.push_back(z[count + 2 * i] - z[count + 2 * i + 1]);
     solution.slip_speed.push_back(slip);
     solution.mode.push_back(contact_mode(normal, slip, u_t));
   }
-  solution.result = std::move(result);
   return solution;
 }
 
 }  // namespace
 
 ContactSolution solve_contacts(const ContactSystem& system, const LcpSettings& settings) {
-  return read_solution(system, solve_lcp(as_lcp(system), settings));
+  const LcpProblem problem = as_lcp(system);
+  return read_solution(system, problem, settings, solve_lcp(problem, settings));
 }
 
 ContactSolution solve_contacts(const ContactSystem& system, const LcpSettings& settings, LcpWorkspace& workspace) {
-  return read_solution(system, solve_lcp(as_lcp(system), settings, workspace));
+  const LcpProblem problem = as_lcp(system);
+  return read_solution(system, problem, settings, solve_lcp(problem, settings, workspace));
 }
 
 }  // namespace tumble
