@@ -464,7 +464,6 @@ def default_settings(method: str = "robust") -> dict[str, Any]:
         - accepted_residual: "solved" means a residual no larger than this, in (0, 0.01];
         - cover: 0 for the cover of ones, any other number for a pseudo-random one, and with it another path;
         - precision: "double" (53 bits) or "quad" (113 bits, some 50 times slower);
-        - cover: 0 for a cover of ones, other whole numbers for pseudo-random ones, which lead along another path;
         - ridge: added to the diagonal of the scaled M; the answer is judged without, in [0, 1e-6];
         - start_basis, start_z: see `start` of `solve`.
 
