@@ -2,6 +2,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +66,48 @@ TEST(Allocations, ASolverWithAWarmWorkspaceMakesNone) {
     for (const LcpProblem& problem : problems) solve_lcp(problem, settings, workspace);
     EXPECT_EQ(num_allocations, before) << to_string(workspace.result.rung);
   }
+}
+
+// The rungs that most problems end on, in turns of small and large ones.
+TEST(Allocations, TheDefaultSolverWithAWarmWorkspaceMakesNone) {
+  const auto tower = [](int num_boxes) {
+    ContactSystem system;
+    for (int k = 0; k < num_boxes; ++k) {
+      system.inverse_mass.push_back({1.0, 1.0, 6.0});
+      system.velocity.push_back({0.1, -0.5, 0.02 * k});
+      for (const double x : {-0.5, 0.5}) {
+        system.contacts.push_back(
+            {k - 1, k, {0.0, -1.0, -x}, {0.0, 1.0, x}, {-1.0, 0.0, 0.5}, {1.0, 0.0, 0.5}, 0.3, 0.0});
+      }
+    }
+    return system;
+  };
+  ContactSystem single = tower(1);
+  single.contacts.pop_back();
+  const LcpProblem large = as_lcp(tower(6));
+  const std::vector<std::pair<LcpProblem, RobustSettings>> cases = {
+      {as_lcp(single), {}},
+      {large, {}},
+      {{{2, 1, 0, 1, 2, 1, 0, 1, 2}, {-1, 0.5, -1}, {}}, {}},
+      {large, {.start_basis = robust(large).basis}},
+      {as_lcp(tower(1)), {}},
+      {{{2, 1, 0, 1, 2, 1, 0, 1, 2}, {-1, 0.5, -1}, {}}, {.start_basis = {1, 0, 1}}}};
+  const LcpRung rungs[] = {LcpRung::closed_form, LcpRung::contact_modes, LcpRung::lemke,
+                           LcpRung::warm_start,  LcpRung::contact_modes, LcpRung::warm_start};
+  LcpWorkspace workspace;
+  std::vector<LcpSettings> settings;
+  for (const auto& [problem, chosen] : cases) settings.emplace_back(chosen);
+  const auto solve_all = [&] {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      solve_lcp(cases[i].first, settings[i], workspace);
+      EXPECT_EQ(workspace.result.rung, rungs[i]) << i;
+    }
+  };
+  solve_all();
+  solve_all();  // results and candidates swap their memory
+  const long before = num_allocations;
+  solve_all();
+  EXPECT_EQ(num_allocations, before);
 }
 
 }  // namespace
