@@ -60,7 +60,7 @@ void try_closed_form(const LcpProblem& problem, const RobustSettings& settings, 
   offer(problem, settings, workspace);
 }
 
-constexpr int k_max_newton_rounds = 12;  // where it gets there, it does so in a few
+constexpr int k_max_newton_rounds = 30;  // where it gets there, it does so in a few
 constexpr int k_max_single_changes = 30;
 
 enum class ModeSearch { newton, one_by_one, path };
@@ -190,20 +190,29 @@ void try_ridge(const LcpProblem& problem, const RobustSettings& settings, LcpWor
 }
 
 // Without rounding, for problems where the last bits matter: what it finds is rounded to doubles and judged as all
-// else.
+// else. In equilibrated numbers, so that its way does not depend on units.
 void try_exact(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
-  if (problem.size() > k_max_exact_rung_size || !is_within_exact_limits(problem)) return;
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  if (problem.size() > k_max_exact_rung_size) return;
+  const auto is_finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+  };
+  const LcpProblem scaled{buffers.scaled.M, buffers.scaled.q, {}};
+  if (!is_finite(scaled.M) || !is_finite(scaled.q) || !is_within_exact_limits(scaled)) return;
   LcpResult& result = workspace.result;
-  LcpResult found = exact_lemke(problem);
+  LcpResult found = exact_lemke(scaled);
   result.rung = LcpRung::exact;
   result.pivots += found.pivots;
   if (found.status == LcpStatus::solved) {
-    workspace.buffers().z = found.z;
+    unscale(buffers.scaled, found.z, buffers.z);
     result.basis = found.basis;
     offer(problem, settings, workspace);
-  } else if (found.status == LcpStatus::infeasible && is_infeasibility_certificate(problem, found.certificate)) {
+  } else if (found.status == LcpStatus::infeasible) {
+    std::vector<double>& y = found.certificate;
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = scaled_by(y[i], buffers.scaled.w_exponent[i]);
+    if (!is_infeasibility_certificate(problem, y)) return;
     result.status = LcpStatus::infeasible;
-    result.certificate = found.certificate;
+    result.certificate = std::move(y);
   }
 }
 
