@@ -1,31 +1,13 @@
 // Steps and solvers take no memory from the heap.
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <utility>
 #include <vector>
 
+#include "../allocations.hpp"
 #include <gtest/gtest.h>
 
 #include "tumble/drop/drop.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/lcp/solve.hpp"
-
-namespace {
-std::atomic<long> num_allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  ++num_allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++num_allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace tumble::drop {
 namespace {
@@ -33,20 +15,20 @@ namespace {
 TEST(Allocations, AStepMakesNone) {
   State state{{0.0, 0.2, 0.5}, {1.0, -2.0, 3.0}};
   int num_contacts = 0;
-  const long before = num_allocations;
+  const long before = test::num_allocations();
   for (int k = 0; k < 500; ++k) {
     const auto [next, record] = step_with_record(state.q, state.v);
     if (record.z[0] > 0.0) ++num_contacts;
     state = next;
   }
-  EXPECT_EQ(num_allocations, before);
+  EXPECT_EQ(test::num_allocations(), before);
   EXPECT_GT(num_contacts, 10);
 }
 
 TEST(Allocations, ATrajectoryMakesTwo) {  // q and v
-  const long before = num_allocations;
+  const long before = test::num_allocations();
   const Trajectory trajectory = simulate({0.0, 0.2, 0.5}, {1.0, -2.0, 3.0}, {.columns = 1000});
-  EXPECT_EQ(num_allocations, before + 2);
+  EXPECT_EQ(test::num_allocations(), before + 2);
   EXPECT_EQ(trajectory.columns, 1000);
 }
 
@@ -62,9 +44,9 @@ TEST(Allocations, ASolverWithAWarmWorkspaceMakesNone) {
   LcpWorkspace workspace;
   for (const LcpSettings& settings : all) {
     for (const LcpProblem& problem : problems) solve_lcp(problem, settings, workspace);
-    const long before = num_allocations;
+    const long before = test::num_allocations();
     for (const LcpProblem& problem : problems) solve_lcp(problem, settings, workspace);
-    EXPECT_EQ(num_allocations, before) << to_string(workspace.result.rung);
+    EXPECT_EQ(test::num_allocations(), before) << to_string(workspace.result.rung);
   }
 }
 
@@ -105,9 +87,9 @@ TEST(Allocations, TheDefaultSolverWithAWarmWorkspaceMakesNone) {
   };
   solve_all();
   solve_all();  // results and candidates swap their memory
-  const long before = num_allocations;
+  const long before = test::num_allocations();
   solve_all();
-  EXPECT_EQ(num_allocations, before);
+  EXPECT_EQ(test::num_allocations(), before);
 }
 
 }  // namespace
