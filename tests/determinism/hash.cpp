@@ -6,9 +6,13 @@
 #include <span>
 
 #include "../random_contact.hpp"
+#include "problems.hpp"
 
 #include "tumble/drop/drop.hpp"
 #include "tumble/lcp/lemke.hpp"
+#include "tumble/lcp/lemke_lu.hpp"
+#include "tumble/lcp/one_contact_lanes.hpp"
+#include "tumble/lcp/robust.hpp"
 
 namespace {
 
@@ -69,9 +73,64 @@ std::uint64_t hash_of_lcps() {
   return hash.value();
 }
 
+// The default solver on contact problems, n = 4 .. 64, and on the next steps of resting towers from the last basis;
+// then Lemke's method with sparse factors, n = 240.
+std::uint64_t hash_of_robust() {
+  namespace problems = tumble::problems;
+  Hash hash;
+  for (const problems::Family& family : problems::families()) {
+    for (std::uint64_t i = 0; i < 64; ++i) {
+      Random random = problems::random_of(3, i);
+      hash.add(robust(as_lcp(family.make(random, 1 + i % 16))).z);
+    }
+  }
+  Random random(4);
+  for (std::size_t i = 0; i < 16; ++i) {
+    const tumble::ContactSystem tower = problems::resting_tower(random, 1 + i);
+    const tumble::LcpResult first = robust(as_lcp(tower));
+    hash.add(robust(as_lcp(problems::next_step(tower, first.z, random)), {.start_basis = first.basis}).z);
+  }
+  const tumble::LcpProblem pile = as_lcp(problems::pile(random, 60));
+  hash.add(robust(pile).z);
+  hash.add(lemke_lu(pile).z);
+  return hash.value();
+}
+
+// 6400 contacts side by side, by every instruction set that this processor has: all give this hash.
+std::uint64_t hash_of_contacts() {
+  constexpr std::size_t count = 6400;
+  Random random(5);
+  std::vector<double> in[6];
+  for (std::size_t i = 0; i < count; ++i) {
+    const tumble::OneContact c = tumble::test::random_contact(random, i % 4 == 0 ? 5.0 : 1.0);
+    const double numbers[6] = {c.A_nn, c.A_nt, c.A_tt, c.b_n, c.b_t, c.friction};
+    for (std::size_t k = 0; k < 6; ++k) in[k].push_back(numbers[k]);
+  }
+  const tumble::OneContactArrays contacts{in[0], in[1], in[2], in[3], in[4], in[5]};
+  std::uint64_t common = 0;
+  for (const auto set :
+       {tumble::InstructionSet::baseline, tumble::InstructionSet::avx2, tumble::InstructionSet::avx512}) {
+    if (!tumble::has_instruction_set(set)) continue;
+    std::vector<double> out[4];
+    for (std::vector<double>& numbers : out) numbers.resize(count);
+    const tumble::OneContactSolutionArrays solutions{out[0], out[1], out[2], out[3], {}, {}};
+    Hash hash;
+    for (std::size_t first = 0; first < count; first += 64) {
+      const double is_done = static_cast<double>(tumble::one_contact::block_solver(set)(contacts, solutions, first));
+      hash.add({&is_done, 1});
+    }
+    for (const std::vector<double>& numbers : out) hash.add(numbers);
+    if (set == tumble::InstructionSet::baseline) common = hash.value();
+    if (hash.value() != common) return 0;
+  }
+  return common;
+}
+
 }  // namespace
 
 int main() {
   std::printf("drops %016llx\n", static_cast<unsigned long long>(hash_of_drops()));
   std::printf("lcps %016llx\n", static_cast<unsigned long long>(hash_of_lcps()));
+  std::printf("robust %016llx\n", static_cast<unsigned long long>(hash_of_robust()));
+  std::printf("contacts %016llx\n", static_cast<unsigned long long>(hash_of_contacts()));
 }
