@@ -1,5 +1,6 @@
 // Prints 64-bit hashes over the bits of reference runs: equal on every compiler, optimisation level and instruction
 // set.
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -116,8 +117,9 @@ std::uint64_t hash_of_contacts() {
     const tumble::OneContactSolutionArrays solutions{out[0], out[1], out[2], out[3], {}, {}};
     Hash hash;
     for (std::size_t first = 0; first < count; first += 64) {
-      const double is_done = static_cast<double>(tumble::one_contact::block_solver(set)(contacts, solutions, first));
-      hash.add({&is_done, 1});
+      std::array<std::uint8_t, 64> is_done{};
+      tumble::one_contact::block_solver(set)(contacts, solutions, first, is_done.data());
+      for (const std::uint8_t byte : is_done) hash.add(std::array<double, 1>{static_cast<double>(byte)});
     }
     for (const std::vector<double>& numbers : out) hash.add(numbers);
     if (set == tumble::InstructionSet::baseline) common = hash.value();
