@@ -18,7 +18,7 @@ TEST(Hdf5, ABuildWithoutItSaysSo) {
 }
 
 TEST(Hdf5, ReadsBackTheSameBits) {
-  if (!has_hdf5()) GTEST_SKIP();
+  if (!has_hdf5()) GTEST_SKIP() << "built without HDF5, which is optional";
   for (const int columns : {2, 150, 5000}) {
     const drop::Record record = test::course_record(columns);
     test::expect_same(parse_record_hdf5(to_hdf5(record), "run.h5"), record);
@@ -27,12 +27,12 @@ TEST(Hdf5, ReadsBackTheSameBits) {
 }
 
 TEST(Hdf5, TheSameRecordGivesTheSameBytes) {
-  if (!has_hdf5()) GTEST_SKIP();
+  if (!has_hdf5()) GTEST_SKIP() << "built without HDF5, which is optional";
   EXPECT_TRUE(to_hdf5(test::course_record(20)) == to_hdf5(test::course_record(20)));
 }
 
 TEST(Hdf5, RefusesTruncatedAndForeignBytes) {
-  if (!has_hdf5()) GTEST_SKIP();
+  if (!has_hdf5()) GTEST_SKIP() << "built without HDF5, which is optional";
   const std::string bytes = to_hdf5(test::course_record(20));
   for (std::size_t size = 0; size < bytes.size(); size += 97) {
     EXPECT_THROW(parse_record_hdf5(bytes.substr(0, size), "run.h5"), std::invalid_argument) << size;
