@@ -277,7 +277,7 @@ def test_docstring_examples_are_true() -> None:
 
     from tumble import lcp
 
-    for module in (drop, lcp):
+    for module in (drop, lcp, lcp.solvers, lcp.contacts, lcp.rational):
         outcome = doctest.testmod(module)
         assert outcome.attempted > 0 and outcome.failed == 0
 
