@@ -194,9 +194,11 @@ TEST(OneContact, EveryInstructionSetGivesTheSameBits) {
     Arrays arrays(contacts);
     int num_done = 0;
     for (std::size_t first = 0; first < contacts.size(); first += 64) {
-      const std::uint64_t is_done = one_contact::block_solver(set)(arrays.contacts(), arrays.solutions(), first);
+      std::array<std::uint8_t, 64> is_done{};
+      const bool is_all = one_contact::block_solver(set)(arrays.contacts(), arrays.solutions(), first, is_done.data());
+      EXPECT_EQ(is_all, std::find(is_done.begin(), is_done.end(), 0) == is_done.end());
       for (std::size_t k = 0; k < 64; ++k) {
-        if (!(is_done >> k & 1)) continue;
+        if (is_done[k] == 0) continue;
         ++num_done;
         ASSERT_TRUE(is_equal(arrays, first + k, solve_one_contact(contacts[first + k]))) << first + k;
       }

@@ -331,8 +331,9 @@ def solve(
         One of `METHODS`. "robust", the default, is a ladder: fast methods first, then slower and surer ones, until an
         answer is right when judged by M and q themselves. The others are its rungs and methods for comparison:
 
-        - "lemke": complementary pivoting on a tableau [1]_, about n pivots of n^2 operations. It finds a solution of
-          every contact problem, and of every feasible one with a copositive-plus M; a "no" from it proves nothing.
+        - "lemke": complementary pivoting on a tableau [1]_, about n pivots of n^2 operations. But for round-off
+          it finds a solution of contact problems, unless overlap is to be corrected, and of every feasible problem with
+          a copositive-plus M; a "no" from it proves nothing.
         - "lemke_lu": the same pivots, on LU factors of the basis: less rounding is carried on, and zeros are left out.
         - "enumerate": all 2^n bases, n <= 12; a "no" from it is a proof.
         - "murty", "dantzig": principal pivots, for matrices without friction: P-matrices, and for "dantzig" semidefinite
@@ -463,6 +464,7 @@ def default_settings(method: str = "robust") -> dict[str, Any]:
         - accepted_residual: "solved" means a residual no larger than this, in (0, 0.01];
         - cover: 0 for the cover of ones, any other number for a pseudo-random one, and with it another path;
         - precision: "double" (53 bits) or "quad" (113 bits, some 50 times slower);
+        - cover: 0 for a cover of ones, other whole numbers for pseudo-random ones, which lead along another path;
         - ridge: added to the diagonal of the scaled M; the answer is judged without, in [0, 1e-6];
         - start_basis, start_z: see `start` of `solve`.
 

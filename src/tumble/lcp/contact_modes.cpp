@@ -19,6 +19,10 @@ constexpr double k_ridge = 1e-10;      // [-] of the diagonal
 constexpr double k_path_ridge = 1e-8;  // the same along a path, where the last digits decide which way it goes
 constexpr double k_round_off = 1e-13;  // relative: contradictions below are not real
 
+bool is_normal_change(ContactMode from, ContactMode to) {
+  return (from == ContactMode::open) != (to == ContactMode::open);
+}
+
 bool has_friction(const ContactPlace& place) { return place.s >= 0 && place.c >= 0 && place.friction > 0.0; }
 
 }  // namespace
@@ -234,24 +238,34 @@ ContactModes::Objection ContactModes::objection(const ContactStructure& structur
   return {ContactMode::stick, -slip_direction(modes[i]) * u_t / size_t};
 }
 
-// The number of contradictions found; none is left if it is 0.
+// The number of contradictions found; none is left if it is 0. Of all changes, those that open or close contacts come
+// first: friction found with a wrong set of closed contacts tells little, and a contact told to slip by mistake is not
+// told to stick again where another one holds the same bodies.
 int ContactModes::change_modes(const ContactStructure& structure, Change change) {
-  int num_changes = 0;
-  Index worst = 0;
-  Objection worst_objection{ContactMode::open, k_round_off};
+  objections_.clear();
+  bool has_normal = false;
+  Index worst = modes.size();
+  double worst_size = k_round_off;
   for (Index i = 0; i < modes.size(); ++i) {
+    objections_.push_back({modes[i], 0.0});
     if (structure.places[i].c < 0) continue;
     const Objection found = objection(structure, i);
     if (!(found.size > k_round_off)) continue;
-    ++num_changes;
-    if (change == Change::all) {
-      modes[i] = found.mode;
-    } else if (found.size > worst_objection.size) {
+    objections_.back() = found;
+    has_normal = has_normal || is_normal_change(modes[i], found.mode);
+    if (found.size > worst_size) {
       worst = i;
-      worst_objection = found;
+      worst_size = found.size;
     }
   }
-  if (change == Change::worst && num_changes > 0) modes[worst] = worst_objection.mode;
+  int num_changes = 0;
+  for (Index i = 0; i < modes.size(); ++i) {
+    const ContactMode mode = objections_[i].mode;
+    if (mode == modes[i]) continue;
+    if (change == Change::worst ? i != worst : has_normal && !is_normal_change(modes[i], mode)) continue;
+    modes[i] = mode;
+    ++num_changes;
+  }
   return num_changes;
 }
 

@@ -71,6 +71,7 @@ class ContactModes {
   double ridge_ = 0.0;                     // [-] of the diagonal, added to it
   std::vector<double> swept_;              // impulses of the sweeps
   std::vector<std::uint64_t> seen_;        // hashes of the modes tried in this run
+  std::vector<Objection> objections_;      // per contact; its own mode if there is none
   std::vector<double> f_, u_;              // per contact (n, t)
   std::vector<double> size_;               // of the terms that u is a sum of
   std::vector<double> drift_;              // of b along the path, and what f and u gain with it

@@ -207,11 +207,10 @@ void solve_one_contacts(const OneContactArrays& contacts, const OneContactSoluti
   const auto solve_block = one_contact::block_solver(instruction_set());
   for (std::size_t first = 0; first < count; first += block_size) {
     const std::size_t size = std::min(block_size, count - first);
-    std::uint64_t is_done = 0;
-    if (size == block_size) is_done = solve_block(contacts, solutions, first);
-    if (is_done == ~std::uint64_t{0}) continue;
+    std::array<std::uint8_t, block_size> is_done{};
+    if (size == block_size && solve_block(contacts, solutions, first, is_done.data())) continue;
     for (std::size_t k = 0; k < size; ++k) {
-      if (is_done >> k & 1) continue;
+      if (is_done[k] != 0) continue;
       const std::size_t i = first + k;
       const OneContactSolution solution = solve_one_contact(contact_at(contacts, i));
       put(solutions.f_n, i, solution.f_n);

@@ -12,14 +12,15 @@ namespace tumble::one_contact {
 
 constexpr double k_accepted_residual = 1e-10;  // round-off of a few operations, times the condition of A up to 1e5
 
-// Solves the 64 contacts from `first` on; bit k of the value is 1 if contact first + k is done. The others, for which
-// the residual is not the simple one of `judge` in one_contact.cpp, are left to `solve_one_contact`.
-using BlockSolver = std::uint64_t (*)(const OneContactArrays& contacts, const OneContactSolutionArrays& solutions,
-                                      std::size_t first);
+// Solves the 64 contacts from `first` on; is_done[k] (64 bytes) tells whether contact first + k is done, and the value
+// whether all are. The others, for which the residual is not the simple one of `judge` in one_contact.cpp, are left to
+// `solve_one_contact`.
+using BlockSolver = bool (*)(const OneContactArrays& contacts, const OneContactSolutionArrays& solutions,
+                             std::size_t first, std::uint8_t* is_done);
 
-std::uint64_t solve_block_baseline(const OneContactArrays&, const OneContactSolutionArrays&, std::size_t first);
-std::uint64_t solve_block_avx2(const OneContactArrays&, const OneContactSolutionArrays&, std::size_t first);
-std::uint64_t solve_block_avx512(const OneContactArrays&, const OneContactSolutionArrays&, std::size_t first);
+bool solve_block_baseline(const OneContactArrays&, const OneContactSolutionArrays&, std::size_t, std::uint8_t*);
+bool solve_block_avx2(const OneContactArrays&, const OneContactSolutionArrays&, std::size_t, std::uint8_t*);
+bool solve_block_avx512(const OneContactArrays&, const OneContactSolutionArrays&, std::size_t, std::uint8_t*);
 
 inline BlockSolver block_solver(InstructionSet set) {
 #if TUMBLE_HAS_X86_SETS

@@ -3,7 +3,7 @@ constexpr int k_num_lanes = 4;
 }
 #include "tumble/lcp/one_contact_lanes_impl.hpp"
 
-std::uint64_t tumble::one_contact::solve_block_avx2(const OneContactArrays& contacts,
-                                                    const OneContactSolutionArrays& solutions, std::size_t first) {
-  return solve_block(contacts, solutions, first);
+bool tumble::one_contact::solve_block_avx2(const OneContactArrays& contacts, const OneContactSolutionArrays& solutions,
+                                           std::size_t first, std::uint8_t* is_done) {
+  return solve_block(contacts, solutions, first, is_done);
 }

@@ -45,8 +45,9 @@ TUMBLE_INLINE T* from(std::span<T> array, std::size_t first) {
   return array.empty() ? nullptr : array.data() + first;
 }
 
-TUMBLE_INLINE std::uint64_t solve_block(const tumble::OneContactArrays& contacts,
-                                        const tumble::OneContactSolutionArrays& solutions, std::size_t first) {
+TUMBLE_INLINE bool solve_block(const tumble::OneContactArrays& contacts,
+                               const tumble::OneContactSolutionArrays& solutions, std::size_t first,
+                               std::uint8_t* is_done) {
   using Lanes = V::Lanes;
   using Mask = V::Mask;
   double* const f_n_out = from(solutions.f_n, first);
@@ -57,9 +58,6 @@ TUMBLE_INLINE std::uint64_t solve_block(const tumble::OneContactArrays& contacts
   tumble::LcpStatus* const status_out = from(solutions.status, first);
   const Lanes zero{};
   const Lanes one = zero + 1.0;
-  Mask lane_bits;
-  for (int lane = 0; lane < k_num_lanes; ++lane) lane_bits[lane] = std::int64_t{1} << lane;
-  std::uint64_t is_done = 0;
   for (std::size_t i = 0; i < 64; i += k_num_lanes) {
     const Lanes A_nn = V::load(contacts.A_nn.data() + first + i);
     const Lanes A_nt = V::load(contacts.A_nt.data() + first + i);
@@ -115,12 +113,15 @@ TUMBLE_INLINE std::uint64_t solve_block(const tumble::OneContactArrays& contacts
     V::store_bytes(mode_out == nullptr ? nullptr : mode_out + i,
                    ~is_open & ((is_stick & 1) | (~is_stick & (3 + is_left))));
     V::store_bytes(status_out == nullptr ? nullptr : status_out + i, Mask{});
-    const Mask bits = is_plain & lane_bits;
-    std::uint64_t gathered = 0;
-    for (int lane = 0; lane < k_num_lanes; ++lane) gathered |= static_cast<std::uint64_t>(bits[lane]);
-    is_done |= gathered << i;
+    V::store_bytes(is_done + i, is_plain);
   }
-  return is_done;
+  std::uint64_t all_done = ~std::uint64_t{0};
+  for (std::size_t i = 0; i < 64; i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, is_done + i, 8);
+    all_done &= eight;
+  }
+  return all_done == ~std::uint64_t{0};
 }
 
 }  // namespace

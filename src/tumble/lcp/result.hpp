@@ -38,7 +38,7 @@ enum class LcpRung {
   closed_form,    // one contact
   contact_modes,  // Newton on the modes of contacts
   lemke,          // tableau
-  lemke_lu,       // fresh factors of the basis
+  lemke_lu,       // LU factors of the basis
   lemke_quad,     // the same with 113 bits
   ridge,          // the same for M + a tiny diagonal
   exact,          // rational arithmetic

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tumble/lcp/enumerate.hpp"
+#include "tumble/lcp/exact.hpp"
 #include "tumble/lcp/infeasibility.hpp"
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
@@ -20,6 +21,7 @@ namespace {
 constexpr std::size_t k_max_tableau_size = 100;
 constexpr std::size_t k_max_quad_size = 100;
 constexpr std::size_t k_max_quad_correction_size = 600;
+constexpr std::size_t k_max_exact_rung_size = 24;
 constexpr std::size_t k_max_infeasibility_size = 200;  // above, the search takes minutes
 
 // One step of the ladder: improves workspace.result, or leaves it.
@@ -58,6 +60,9 @@ void try_closed_form(const LcpProblem& problem, const RobustSettings& settings, 
   offer(problem, settings, workspace);
 }
 
+constexpr int k_max_newton_rounds = 12;  // where it gets there, it does so in a few
+constexpr int k_max_single_changes = 30;
+
 enum class ModeSearch { newton, one_by_one, path };
 
 void run_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace, ModeSearch search) {
@@ -69,9 +74,11 @@ void run_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWor
     return is_done;
   };
   const int m = static_cast<int>(buffers.modes.modes.size());
-  if (search == ModeSearch::path && !count(buffers.modes.follow(buffers.contacts, 20 + 4 * m))) return;
-  const auto change = search == ModeSearch::one_by_one ? ContactModes::Change::worst : ContactModes::Change::all;
-  if (!count(buffers.modes.run(buffers.contacts, change, 30))) return;
+  if (search == ModeSearch::path && !count(buffers.modes.follow(buffers.contacts, 20 + 2 * m))) return;
+  const bool is_one_by_one = search == ModeSearch::one_by_one;
+  const auto change = is_one_by_one ? ContactModes::Change::worst : ContactModes::Change::all;
+  const int max_rounds = is_one_by_one ? k_max_single_changes : k_max_newton_rounds;
+  if (!count(buffers.modes.run(buffers.contacts, change, max_rounds))) return;
   buffers.modes.write(buffers.contacts, buffers.z, result.basis);
   offer(problem, settings, workspace);
 }
@@ -168,7 +175,7 @@ void run_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWork
 }
 
 void try_lemke_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
-  run_quad(problem, settings, workspace, {0.0, 1e-14, 1e-13});
+  run_quad(problem, settings, workspace, {0.0, 1e-14, 1e-15, 1e-13});
 }
 
 // For large problems.
@@ -179,6 +186,24 @@ void try_ridge(const LcpProblem& problem, const RobustSettings& settings, LcpWor
     if (workspace.result.status == LcpStatus::solved) return;
     run_quad(problem, settings, workspace, {0.0, 1e-14});
     if (workspace.result.status == LcpStatus::solved) return;
+  }
+}
+
+// Without rounding, for problems where the last bits matter: what it finds is rounded to doubles and judged as all
+// else.
+void try_exact(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
+  if (problem.size() > k_max_exact_rung_size || !is_within_exact_limits(problem)) return;
+  LcpResult& result = workspace.result;
+  LcpResult found = exact_lemke(problem);
+  result.rung = LcpRung::exact;
+  result.pivots += found.pivots;
+  if (found.status == LcpStatus::solved) {
+    workspace.buffers().z = found.z;
+    result.basis = found.basis;
+    offer(problem, settings, workspace);
+  } else if (found.status == LcpStatus::infeasible && is_infeasibility_certificate(problem, found.certificate)) {
+    result.status = LcpStatus::infeasible;
+    result.certificate = found.certificate;
   }
 }
 
@@ -199,8 +224,8 @@ void try_enumerate(const LcpProblem& problem, const RobustSettings& settings, Lc
 }
 
 constexpr std::array<Rung, 2> k_contact_ladder = {try_closed_form, try_modes};
-constexpr std::array<Rung, 7> k_ladder = {try_warm_start, try_lemke, try_lemke_lu, try_infeasible,
-                                          try_lemke_quad, try_ridge, try_enumerate};
+constexpr std::array<Rung, 8> k_ladder = {try_warm_start, try_lemke, try_lemke_lu, try_infeasible,
+                                          try_lemke_quad, try_ridge, try_exact,    try_enumerate};
 
 bool is_decided(const LcpResult& result) {
   return result.status == LcpStatus::solved || result.status == LcpStatus::infeasible ||

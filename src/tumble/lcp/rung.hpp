@@ -37,7 +37,7 @@ inline constexpr double k_singular = 1e-14;
 // Lemke's method on a prepared problem. Improves workspace.result, adds to its pivots, sets its status.
 void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWorkspace& workspace);
 
-// The same with fresh factors at every pivot.
+// The same on LU factors of the basis.
 void run_lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspace& workspace);
 
 // The methods for comparison, on a prepared problem as well.
