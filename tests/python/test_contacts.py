@@ -146,6 +146,17 @@ def test_a_contact_has_two_bodies_at_most() -> None:
         lcp.contact_problem(np.ones((1, 9)), np.ones((1, 9)), np.ones(9), np.ones(9), 0.5)
 
 
+@pytest.mark.parametrize("mass", [1.0, 1e9, 1e12, 1e15])
+def test_a_heavy_ball_on_a_light_one(mass: float) -> None:
+    J_n, J_t = [[0, 1, 0, 0, 0, 0], [0, -1, 0, 0, 1, 0]], [[1, 0, 0, 0, 0, 0], [-1, 0, 0, 1, 0, 0]]
+    inverse_mass, velocity = [1.0] * 3 + [1 / mass] * 3, [0.03, -1.0, 0, -0.07, -1.1, 0]
+    balls = lcp.solve_contacts(J_n, J_t, inverse_mass, velocity, 0.5)
+    assert balls.result.status == "solved"
+    # 1e-13 of the speed is what the correction promises.
+    np.testing.assert_allclose(balls.normal_impulse, [1.1 * mass + 1.0, 1.1 * mass], rtol=2e-13)
+    np.testing.assert_allclose(balls.velocity, 0.0, atol=2e-13)
+
+
 BOX = {
     "J_n": [[0, 1, -0.5], [0, 1, 0.5]],
     "J_t": [[1, 0, 0.25], [1, 0, 0.25]],

@@ -21,7 +21,7 @@ constexpr double k_rank_tolerance = 1e-11;
 
 constexpr int k_max_steps = 4;  // each gains the digits that the factors have, five and more where it works at all
 
-// A sum in twice the digits of double [Ogita, Rump & Oishi 2005].
+// A sum in twice the digits of double [Ogita 2005].
 struct LongSum {
   double high = 0.0;
   double low = 0.0;

@@ -195,6 +195,9 @@ def solve_contacts(
 ) -> ContactResult:
     """The impulses of k planar contacts with friction between b bodies, and the motion after them.
 
+    Better than to `solve` the `contact_problem`: where J M^-1 J^T has lost digits, as for a heavy body on a light one,
+    the Jacobians themselves correct the impulses.
+
     Parameters
     ----------
     J_n, J_t, inverse_mass, velocity, friction, offset
