@@ -189,15 +189,20 @@ void ContactModes::find_velocities(const ContactStructure& structure, const std:
   }
 }
 
-void ContactModes::find_sizes(const ContactStructure& structure) {
+// u of f, and the sizes of the terms that each u is a sum of, with the largest b among them.
+void ContactModes::find_velocities_and_sizes(const ContactStructure& structure) {
   double speed = 0.0;
   for (const double b_i : structure.b) speed = std::max(speed, std::abs(b_i));
+  u_.resize(f_.size());
   size_.resize(f_.size());
-  for (Index row = 0; row < size_.size(); ++row) {
-    double size = speed;
+  for (Index row = 0; row < u_.size(); ++row) {
+    double sum = 0.0, size = speed;
     for (Index e = structure.row_begin[row]; e < structure.row_begin[row + 1]; ++e) {
-      size += std::abs(structure.entry[e] * f_[static_cast<Index>(structure.column[e])]);
+      const double term = structure.entry[e] * f_[static_cast<Index>(structure.column[e])];
+      sum += term;
+      size += std::abs(term);
     }
+    u_[row] = sum + structure.b[row];
     size_[row] = size;
   }
 }
@@ -206,8 +211,7 @@ void ContactModes::find_sizes(const ContactStructure& structure) {
 void ContactModes::refine(const ContactStructure& structure) {
   constexpr int max_refinements = 4;
   for (int count = 0;; ++count) {
-    find_velocities(structure, f_, structure.b, u_);
-    find_sizes(structure);
+    find_velocities_and_sizes(structure);
     double largest = 0.0;
     for (const int row : unknown_) {
       const auto i = static_cast<Index>(row);

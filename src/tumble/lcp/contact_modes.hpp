@@ -55,7 +55,7 @@ class ContactModes {
   void find_impulses(const ContactStructure& structure, const std::vector<double>& b, std::vector<double>& f);
   void find_velocities(const ContactStructure& structure, const std::vector<double>& f, const std::vector<double>& b,
                        std::vector<double>& u) const;
-  void find_sizes(const ContactStructure& structure);
+  void find_velocities_and_sizes(const ContactStructure& structure);
   void refine(const ContactStructure& structure);
   Objection objection(const ContactStructure& structure, std::size_t i) const;
   int change_modes(const ContactStructure& structure, Change change);

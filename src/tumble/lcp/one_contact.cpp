@@ -131,14 +131,15 @@ OneContactSolution solve_one_contact(const OneContact& c) {
     solution.f_t = F_t / det;
     solution.mode = ContactMode::stick;
   } else {
-    // Slip in direction sigma, against the force that sticking would take: f_t = -sigma mu f_n, f_n = -b_n / k, slip
-    // speed (-sigma F_t - mu F_n) / k. Here k > 0 up to round-off, as b_n < 0 and sticking is excluded.
-    const double sigma = F_t > 0.0 ? -1.0 : 1.0;
-    const double k = c.A_nn - sigma * c.friction * c.A_nt;
+    // Slip in direction sigma, against the force that sticking would take, sigma = -sign(F_t): f_t = -sigma mu f_n, f_n
+    // = -b_n / k, slip speed (-sigma F_t - mu F_n) / k. Here k > 0 up to round-off, as b_n < 0 and sticking is
+    // excluded.
+    const double pull = F_t > 0.0 ? c.friction : -c.friction;  // f_t / f_n = -sigma mu
+    const double k = c.A_nn + pull * c.A_nt;
     solution.f_n = -c.b_n / k;
-    solution.f_t = -sigma * c.friction * solution.f_n;
-    solution.slip_speed = (-sigma * F_t - cone_F_n) / k;
-    solution.mode = sigma < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
+    solution.f_t = pull * solution.f_n;
+    solution.slip_speed = (std::abs(F_t) - cone_F_n) / k;
+    solution.mode = F_t > 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
   }
   judge(c, F_t > 0.0, solution);
   return solution;

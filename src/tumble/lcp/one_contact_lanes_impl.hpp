@@ -57,7 +57,6 @@ TUMBLE_INLINE bool solve_block(const tumble::OneContactArrays& contacts,
   tumble::ContactMode* const mode_out = from(solutions.mode, first);
   tumble::LcpStatus* const status_out = from(solutions.status, first);
   const Lanes zero{};
-  const Lanes one = zero + 1.0;
   for (std::size_t i = 0; i < 64; i += k_num_lanes) {
     const Lanes A_nn = V::load(contacts.A_nn.data() + first + i);
     const Lanes A_nt = V::load(contacts.A_nt.data() + first + i);
@@ -72,15 +71,16 @@ TUMBLE_INLINE bool solve_block(const tumble::OneContactArrays& contacts,
     const Lanes F_t = A_nt * b_n - A_nn * b_t;
     const Lanes cone_F_n = friction * F_n;
     const Mask is_open = b_n >= zero;
-    const Mask is_stick = V::absolute(F_t) <= cone_F_n;
+    const Lanes F_t_size = V::absolute(F_t);
+    const Mask is_stick = F_t_size <= cone_F_n;
     const Mask is_left = F_t > zero;
-    const Lanes sigma = V::select(is_left, -one, one);
-    const Lanes k = A_nn - sigma * friction * A_nt;
+    const Lanes pull = V::select(is_left, friction, -friction);
+    const Lanes k = A_nn + pull * A_nt;
     const Lanes divisor = V::select(is_stick, det, k);
     const Lanes closed_f_n = V::select(is_stick, F_n, -b_n) / divisor;
-    const Lanes other = V::select(is_stick, F_t, -sigma * F_t - cone_F_n) / divisor;
+    const Lanes other = V::select(is_stick, F_t, F_t_size - cone_F_n) / divisor;
     const Lanes f_n = V::select(is_open, zero, closed_f_n);
-    const Lanes f_t = V::select(is_open, zero, V::select(is_stick, other, -sigma * friction * closed_f_n));
+    const Lanes f_t = V::select(is_open, zero, V::select(is_stick, other, pull * closed_f_n));
     const Lanes slip_speed = V::select(is_open, V::absolute(b_t), V::select(is_stick, zero, other));
 
     // `judge`.
