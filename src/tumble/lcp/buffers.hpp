@@ -23,7 +23,8 @@ struct LcpWorkspace::Buffers {
   bool has_contacts = false;
   ContactStructure contacts;  // filled if has_contacts
   ContactModes modes;
-  std::vector<double> row_sizes, other_row_sizes;
+  RowSizes row_sizes;
+  std::vector<double> other_sizes;
   JudgeBuffers judge;
   Tableau tableau;
   DenseLu<double> lu;

@@ -88,15 +88,20 @@ class Enumeration {
         accepted_residual_(settings.accepted_residual),
         wants_rays_(wants_rays),
         scales_(equilibrate(problem)) {
-    const bool has_sizes = find_row_sizes();
+    ContactStructure contacts;
+    find_row_sizes(problem, contacts, scales_, row_sizes_);
     balance(problem, scales_.row, scales_.column);
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < n_; ++j) M_[i][j] = std::ldexp(problem(i, j), scales_.row[i] + scales_.column[j]);
       q_[i] = std::ldexp(problem.q[i], scales_.row[i]);
     }
     // Without sizes of its own, a row has those of the scales here, which undo more than those of `residual`.
-    std::vector<double> sizes = row_sizes_;
-    if (!has_sizes) round_off_sizes(problem, scales_, sizes);
+    std::vector<double> sizes = row_sizes_.round_off;
+    if (row_sizes_.is_guess) {
+      std::vector<double> of_q;
+      row_sizes_of_q(problem, scales_, of_q);
+      share_for_round_off(of_q, sizes);
+    }
     for (std::size_t i = 0; i < n_; ++i) row_floor_[i] = std::ldexp(sizes[i], scales_.row[i]);
   }
 
@@ -135,20 +140,6 @@ class Enumeration {
     Vector z{};  // scaled, the largest entry 1
     Support support;
   };
-
-  // The sizes that `residual` takes. False if they are a guess.
-  bool find_row_sizes() {
-    ContactStructure contacts;
-    if (!problem_.row_sizes.empty()) {
-      row_sizes_ = problem_.row_sizes;
-    } else if (find_contacts(problem_, contacts)) {
-      contact_row_sizes(problem_, contacts.places, row_sizes_);
-    } else {
-      round_off_sizes(problem_, scales_, row_sizes_);
-      return false;
-    }
-    return true;
-  }
 
   // Rows `rows` of M z = -q in the unknowns `columns`.
   Elimination system(const Members& rows, const Members& columns) const {
@@ -362,7 +353,7 @@ class Enumeration {
   Equilibration scales_;
   std::array<Vector, k_max_enumerate_size> M_;  // scaled
   Vector q_, row_floor_;
-  std::vector<double> row_sizes_;  // of `residual`
+  RowSizes row_sizes_;  // of `residual`
   JudgeBuffers judge_buffers_;
   std::vector<Vector> scaled_solutions_;
   std::vector<LcpResult> solutions_;

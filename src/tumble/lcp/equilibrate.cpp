@@ -125,24 +125,21 @@ std::vector<double> block_sizes(const LcpProblem& problem, const Equilibration& 
   return sizes;
 }
 
-void round_off_sizes(const LcpProblem& problem, const Equilibration& scales, std::vector<double>& sizes) {
-  // A rounding error of the block, 1e-16 of its size, then counts as a residual of 1e-10; a violation of 1e-12 of it as
-  // 1e-6, which no solver accepts.
-  constexpr double share = 1e-6;
+void row_sizes_of_q(const LcpProblem& problem, const Equilibration& scales, std::vector<double>& sizes) {
   block_sizes(problem, scales, sizes);
   // sizes[block] is needed until the last row of the block is done: the row's own size waits behind the blocks.
   const std::size_t n = problem.size();
   sizes.resize(3 * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    sizes[2 * n + i] = std::ldexp(share * sizes[scales.row_block[i]], -scales.row[i]);
-  }
+  for (std::size_t i = 0; i < n; ++i) sizes[2 * n + i] = std::ldexp(sizes[scales.row_block[i]], -scales.row[i]);
   sizes.erase(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(2 * n));
 }
 
-std::vector<double> round_off_sizes(const LcpProblem& problem) {
-  std::vector<double> sizes;
-  round_off_sizes(problem, equilibrate(problem), sizes);
-  return sizes;
+void share_for_round_off(const std::vector<double>& of_q, std::vector<double>& round_off) {
+  // A rounding error of the block, 1e-16 of its size, then counts as a residual of 1e-10; a violation of 1e-12 of it as
+  // 1e-6, which no solver accepts.
+  constexpr double share = 1e-6;
+  round_off.resize(of_q.size());
+  for (std::size_t i = 0; i < of_q.size(); ++i) round_off[i] = share * of_q[i];
 }
 
 }  // namespace tumble

@@ -32,10 +32,12 @@ void equilibrate(const LcpProblem& problem, Equilibration& scales);  // the same
 std::vector<double> block_sizes(const LcpProblem& problem, const Equilibration& scales);
 void block_sizes(const LcpProblem& problem, const Equilibration& scales, std::vector<double>& sizes);
 
-// For a problem without row_sizes: 1e-6 of the largest |q_k| of the block of row i, in the unit of w_i. n entries >= 0.
-// Small, so that a row may be far smaller than its neighbours and still count; not 0, so that the round-off of the
-// neighbours does not count as an error of 1 in a row whose own terms all vanish.
-std::vector<double> round_off_sizes(const LcpProblem& problem);
-void round_off_sizes(const LcpProblem& problem, const Equilibration& scales, std::vector<double>& sizes);
+// The largest |q_k| of the block of row i, in the unit of w_i. n entries >= 0.
+void row_sizes_of_q(const LcpProblem& problem, const Equilibration& scales, std::vector<double>& sizes);
+
+// For a problem without row_sizes: 1e-6 of those. Small, so that a row may be far smaller than its neighbours and still
+// count; not 0, so that the round-off of the neighbours does not count as an error of 1 in a row whose own terms all
+// vanish.
+void share_for_round_off(const std::vector<double>& of_q, std::vector<double>& round_off);
 
 }  // namespace tumble

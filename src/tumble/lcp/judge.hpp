@@ -6,6 +6,7 @@
 
 #include "tumble/lcp/problem.hpp"
 #include "tumble/lcp/residual.hpp"
+#include "tumble/lcp/row_sizes.hpp"
 
 namespace tumble {
 
@@ -14,8 +15,8 @@ struct JudgeBuffers {
   std::vector<std::size_t> columns;  // j with z_j != 0
 };
 
-// The residual of z in a valid problem, with `row_sizes` (n values) in place of the problem's own, and w = M z + q.
-LcpResidual judge(const LcpProblem& problem, std::span<const double> row_sizes, std::span<const double> z,
-                  std::vector<double>& w, JudgeBuffers& buffers);
+// The residual of z in a valid problem, with `sizes` in place of the problem's own, and w = M z + q.
+LcpResidual judge(const LcpProblem& problem, const RowSizes& sizes, std::span<const double> z, std::vector<double>& w,
+                  JudgeBuffers& buffers);
 
 }  // namespace tumble

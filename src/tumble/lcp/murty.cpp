@@ -21,7 +21,7 @@ void find_w(const LcpProblem& problem, LcpWorkspace::Buffers& buffers) {
   buffers.w_terms.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     double sum = scaled.q[i];
-    double terms = std::abs(scaled.q[i]) + scaled_by(buffers.row_sizes[i], scaled.w_exponent[i]);
+    double terms = std::abs(scaled.q[i]) + scaled_by(buffers.row_sizes.round_off[i], scaled.w_exponent[i]);
     for (std::size_t j = 0; j < n; ++j) {
       const double term = scaled(i, j) * buffers.z_scaled[j];
       sum += term;

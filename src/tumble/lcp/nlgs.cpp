@@ -149,7 +149,7 @@ void run_nlgs(const LcpProblem& problem, const NlgsSettings& settings, LcpWorksp
   result.status = result.residual <= settings.accepted_residual ? LcpStatus::solved : LcpStatus::numerical;
   if (result.status == LcpStatus::solved) return;
   if (!buffers.has_contacts && !take_rows_as_blocks(problem, buffers.contacts)) return;
-  Sweeper sweeper{buffers.contacts, buffers.row_sizes, buffers.impulses, buffers.impulse_modes};
+  Sweeper sweeper{buffers.contacts, buffers.row_sizes.round_off, buffers.impulses, buffers.impulse_modes};
   sweeper.read(settings.start_z);
   for (int until_check = k_sweeps_per_check; result.pivots < settings.max_sweeps;) {
     const double change = sweeper.sweep();

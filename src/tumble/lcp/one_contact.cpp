@@ -31,9 +31,13 @@ double one_contact_residual(const OneContact& c, double f_n, double f_t, double 
   const double cone = c.friction * f_n - f_t_size;
 
   const double A_nt = std::abs(c.A_nt);
-  const double inverse_d_n = 1.0 / (velocity_size + std::abs(c.b_n) + c.A_nn * f_n + A_nt * f_t_size);
-  const double inverse_d_t = 1.0 / (velocity_size + std::abs(c.b_t) + A_nt * f_n + c.A_tt * f_t_size + slip_speed);
-  const double inverse_d_cone = c.A_nn / (velocity_size + c.A_nn * (c.friction * f_n + f_t_size));
+  const double bound = k_largest_growth * velocity_size;
+  const double terms_n = smaller(c.A_nn * f_n + A_nt * f_t_size, bound);
+  const double terms_t = smaller(A_nt * f_n + c.A_tt * f_t_size + slip_speed, bound);
+  const double terms_cone = smaller(c.A_nn * (c.friction * f_n + f_t_size), bound);
+  const double inverse_d_n = 1.0 / (velocity_size + std::abs(c.b_n) + terms_n);
+  const double inverse_d_t = 1.0 / (velocity_size + std::abs(c.b_t) + terms_t);
+  const double inverse_d_cone = c.A_nn / (velocity_size + terms_cone);
 
   const double inverse_s_n = larger(larger(c.A_nn * inverse_d_n, A_nt * inverse_d_t), c.friction * inverse_d_cone);
   const double inverse_s_t = larger(larger(A_nt * inverse_d_n, c.A_tt * inverse_d_t), inverse_d_cone);
@@ -105,7 +109,7 @@ void judge(const OneContact& c, bool is_left, OneContactSolution& x) {
   x.residual = larger(std::abs(u_n) / d_n, larger(off_active, -w_passive) / d_t);
   const bool is_plain = (x.f_n >= 0.0) & (x.slip_speed >= 0.0) & (u_n <= nn_f_n) &
                         ((w_active <= tt_f_t) | (f_t_size <= 0.0)) & (f_t_size <= c.friction * x.f_n) & (c.A_nn > 0.0) &
-                        (d_n + d_t <= 1e300) & (x.residual <= k_accepted_residual);
+                        (d_n + d_t <= smaller(k_largest_growth * speed, 1e300)) & (x.residual <= k_accepted_residual);
   x.status = LcpStatus::solved;
   if (!is_plain) judge_in_full(c, x);
 }

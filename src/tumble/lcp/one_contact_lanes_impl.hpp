@@ -36,6 +36,7 @@ struct V {
   }
   static TUMBLE_INLINE Lanes select(Mask mask, Lanes a, Lanes b) { return mask ? a : b; }
   static TUMBLE_INLINE Lanes absolute(Lanes x) { return (Lanes)((Mask)x & INT64_MAX); }
+  static TUMBLE_INLINE Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
   static TUMBLE_INLINE Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
 };
 
@@ -100,7 +101,7 @@ TUMBLE_INLINE bool solve_block(const tumble::OneContactArrays& contacts,
     const Mask is_plain_open = b_n + slip_speed <= zero + 1e300;
     const Mask is_plain_closed = (f_n >= zero) & (slip_speed >= zero) & (u_n <= nn_f_n) &
                                  ((w_active <= tt_f_t) | (f_t_size <= zero)) & (f_t_size <= friction * f_n) &
-                                 (d_n + d_t <= zero + 1e300) &
+                                 (d_n + d_t <= V::smaller(tumble::k_largest_growth * speed, zero + 1e300)) &
                                  (residual <= zero + tumble::one_contact::k_accepted_residual);
     const Mask is_plain =
         (A_nn > zero) & (friction >= zero) & ((is_open & is_plain_open) | (~is_open & is_plain_closed));

@@ -240,9 +240,9 @@ class Refinement {
 
 }  // namespace
 
-RefinedContacts refine_contacts(const ContactSystem& system, const std::vector<double>& z) {
+RefinedContacts refine_contacts(const ContactSystem& system, const std::vector<double>& z, bool is_solved) {
   Refinement refinement(system, z);
-  if (refinement.error() <= k_round_off) return {};
+  if (is_solved && refinement.error() <= k_round_off) return {};
   for (int step = 0; step < k_max_steps && refinement.error() > k_round_off; ++step) refinement.improve();
   return refinement.error() <= k_round_off ? refinement.result() : RefinedContacts{};
 }

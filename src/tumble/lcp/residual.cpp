@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "tumble/lcp/contact_structure.hpp"
-#include "tumble/lcp/equilibrate.hpp"
 #include "tumble/lcp/judge.hpp"
 
 namespace tumble {
@@ -28,11 +26,11 @@ std::vector<double> complement(const LcpProblem& problem, std::span<const double
 
 namespace {
 
-// w = M z + q and d_i = row size + |q_i| + sum_j |M_ij z_j| for R rows from `first` on, side by side: a sum from the
+// w = M z + q and d_i for R rows from `first` on, side by side: a sum from the
 // first column to the last waits for each of its additions, R sums fill the time.
 template <std::size_t R>
-void sum_rows(const LcpProblem& problem, std::size_t first, std::span<const double> row_sizes,
-              std::span<const double> z, std::vector<double>& w, JudgeBuffers& buffers) {
+void sum_rows(const LcpProblem& problem, std::size_t first, const RowSizes& sizes, std::span<const double> z,
+              std::vector<double>& w, JudgeBuffers& buffers) {
   const std::size_t n = problem.size();
   const double* rows = problem.M.data() + first * n;
   double sum[R] = {};
@@ -47,7 +45,9 @@ void sum_rows(const LcpProblem& problem, std::size_t first, std::span<const doub
   for (std::size_t r = 0; r < R; ++r) {
     const std::size_t i = first + r;
     w[i] = sum[r] + problem.q[i];
-    buffers.row_scales[i] = row_sizes[i] + std::abs(problem.q[i]) + size[r];
+    const double bound = k_largest_growth * sizes.of_q[i];
+    const double terms = bound > 0.0 && std::isfinite(size[r]) ? std::min(size[r], bound) : size[r];
+    buffers.row_scales[i] = sizes.round_off[i] + std::abs(problem.q[i]) + terms;
   }
 }
 
@@ -63,8 +63,8 @@ double relative_step(const LcpProblem& problem, std::span<const double> z, const
 
 }  // namespace
 
-LcpResidual judge(const LcpProblem& problem, std::span<const double> row_sizes, std::span<const double> z,
-                  std::vector<double>& w, JudgeBuffers& buffers) {
+LcpResidual judge(const LcpProblem& problem, const RowSizes& sizes, std::span<const double> z, std::vector<double>& w,
+                  JudgeBuffers& buffers) {
   const std::size_t n = problem.size();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   w.resize(n);
@@ -74,8 +74,8 @@ LcpResidual judge(const LcpProblem& problem, std::span<const double> row_sizes, 
     if (z[j] != 0.0) buffers.columns.push_back(j);
   }
   std::size_t first = 0;
-  for (; first + 4 <= n; first += 4) sum_rows<4>(problem, first, row_sizes, z, w, buffers);
-  for (; first < n; ++first) sum_rows<1>(problem, first, row_sizes, z, w, buffers);
+  for (; first + 4 <= n; first += 4) sum_rows<4>(problem, first, sizes, z, w, buffers);
+  for (; first < n; ++first) sum_rows<1>(problem, first, sizes, z, w, buffers);
 
   const std::vector<double>& d = buffers.row_scales;
   for (const double d_i : d) {
@@ -97,14 +97,12 @@ LcpResidual judge(const LcpProblem& problem, std::span<const double> row_sizes, 
 }
 
 std::vector<double> default_row_sizes(const LcpProblem& problem) {
-  std::vector<double> sizes;
+  LcpProblem without_sizes{problem.M, problem.q, {}};
   ContactStructure contacts;
-  if (find_contacts(problem, contacts)) {
-    contact_row_sizes(problem, contacts.places, sizes);
-  } else {
-    sizes = round_off_sizes(problem);
-  }
-  return sizes;
+  Equilibration scales;
+  RowSizes sizes;
+  find_row_sizes(without_sizes, contacts, scales, sizes);
+  return sizes.round_off;
 }
 
 LcpResidual residual(const LcpProblem& problem, std::span<const double> z) {
@@ -114,7 +112,11 @@ LcpResidual residual(const LcpProblem& problem, std::span<const double> z) {
   }
   std::vector<double> w;
   JudgeBuffers buffers;
-  return judge(problem, problem.row_sizes.empty() ? default_row_sizes(problem) : problem.row_sizes, z, w, buffers);
+  ContactStructure contacts;
+  Equilibration scales;
+  RowSizes sizes;
+  find_row_sizes(problem, contacts, scales, sizes);
+  return judge(problem, sizes, z, w, buffers);
 }
 
 }  // namespace tumble

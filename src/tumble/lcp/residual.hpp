@@ -17,11 +17,15 @@ struct LcpResidual {
   double largest() const;  // of the three; infinity where z is not finite
 };
 
+// Terms M_ij z_j count up to this multiple of the size of q in their row: what cancels by more digits proves nothing.
+inline constexpr double k_largest_growth = 1e7;
+
 // The residual of z (n entries), with w = M z + q and, as round-off in row i is proportional to the terms summed there,
-//   d_i = |q_i| + sum_j |M_ij z_j| + row size i,      1 / s_i = max_j |M_ji| / d_j.
-// It does not change when rows or columns are rescaled, that is, with the units of mass, length and time, if
-// `row_sizes` are given in those units. Derivation: docs/theory/lcp.md.
-// Throws std::invalid_argument where `validate` does or if z has another length than q.
+//   d_i = |q_i| + min(sum_j |M_ij z_j|, 1e7 size of q) + row size i,      1 / s_i = max_j |M_ji| / d_j.
+// The size of q is the largest |q_k| that row i is coupled with, in the unit of w_i; without that bound a z of 1e13
+// would solve every problem that a change of M in its last digit can solve. It does not change when rows or columns are
+// rescaled, that is, with the units of mass, length and time, if `row_sizes` are given in those units. Derivation:
+// docs/theory/lcp.md. Throws std::invalid_argument where `validate` does or if z has another length than q.
 LcpResidual residual(const LcpProblem& problem, std::span<const double> z);
 
 // What `residual` takes where a problem has no row_sizes (n values >= 0). If the problem is made of frictional

@@ -132,20 +132,15 @@ void try_lemke_lu(const LcpProblem& problem, const RobustSettings& settings, Lcp
 }
 
 // Lemke's ray is a proof itself where M is copositive-plus [Cottle 1992, theorem 4.4.11]; else one is looked for.
-bool prove_infeasible(const LcpProblem& problem, LcpWorkspace& workspace) {
+void try_infeasible(const LcpProblem& problem, const RobustSettings&, LcpWorkspace& workspace) {
   LcpResult& result = workspace.result;
   if (!is_infeasibility_certificate(problem, result.certificate)) {
-    if (problem.size() > k_max_infeasibility_size) return false;
+    if (problem.size() > k_max_infeasibility_size) return;
     std::vector<double> y = find_infeasibility(problem);
-    if (y.empty()) return false;
+    if (y.empty()) return;
     result.certificate = std::move(y);
   }
   result.status = LcpStatus::infeasible;
-  return true;
-}
-
-void try_infeasible(const LcpProblem& problem, const RobustSettings&, LcpWorkspace& workspace) {
-  prove_infeasible(problem, workspace);
 }
 
 // Lemke with 113 bits, for M as it is or with a tiny diagonal: contacts that depend on each other to the last bits
@@ -215,16 +210,16 @@ void try_exact(const LcpProblem& problem, const RobustSettings& settings, LcpWor
 void try_enumerate(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   if (problem.size() > k_max_enumerate_size) return;
   LcpResult& result = workspace.result;
-  LcpResult found = enumerate(problem, {settings.accepted_residual});
-  found.pivots += result.pivots;
-  found.refactorisations += result.refactorisations;
+  const LcpResult found = enumerate(problem, {settings.accepted_residual});
+  result.pivots += found.pivots;
+  result.rung = LcpRung::enumerate;
   if (found.status == LcpStatus::solved) {
     workspace.buffers().z = found.z;
-    result.rung = LcpRung::enumerate;
     result.basis = found.basis;
     offer(problem, settings, workspace);
   } else if (found.status == LcpStatus::no_solution_proved) {
-    result = std::move(found);
+    result.status = LcpStatus::no_solution_proved;
+    result.certificate.clear();
   }
 }
 
@@ -250,30 +245,16 @@ bool climb(std::span<const Rung> ladder, const LcpProblem& problem, const Robust
 // Rows of unknown sizes: each is judged by its own terms alone first. What satisfies that satisfies every size.
 bool climb_strictly(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   LcpWorkspace::Buffers& buffers = workspace.buffers();
-  std::swap(buffers.row_sizes, buffers.other_row_sizes);
-  buffers.row_sizes.assign(problem.size(), 0.0);
+  std::swap(buffers.row_sizes.round_off, buffers.other_sizes);
+  buffers.row_sizes.round_off.assign(problem.size(), 0.0);
   const bool is_done = climb(k_ladder, problem, settings, workspace);
-  std::swap(buffers.row_sizes, buffers.other_row_sizes);
+  std::swap(buffers.row_sizes.round_off, buffers.other_sizes);
   if (workspace.result.z.empty()) return is_done;
   // The residual reported is that of `residual`.
   buffers.z = workspace.result.z;
   workspace.result.z.clear();
   judge_candidate(problem, workspace);
   return is_done;
-}
-
-// An answer far larger than q calls for may be one of a problem nearby, while this one has none: z = 1e13 (1, 1)
-// "solves" the infeasible M = [1 -1; -1 1], q = (-1, -1) but for the last bits of M z.
-void doubt_large_answer(const LcpProblem& problem, LcpWorkspace& workspace) {
-  constexpr double large = 1e8;
-  const ScaledProblem& scaled = workspace.buffers().scaled;  // |q| is at most 1 there
-  const std::vector<double>& z = workspace.result.z;
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    if (scaled_by(z[i], -scaled.z_exponent[i]) > large) {
-      prove_infeasible(problem, workspace);
-      return;
-    }
-  }
 }
 
 }  // namespace
@@ -286,10 +267,8 @@ void run_robust(const LcpProblem& problem, const RobustSettings& settings, LcpWo
   if (solve_trivially(problem, workspace)) return;
   if (buffers.has_contacts && climb(k_contact_ladder, problem, settings, workspace)) return;
   scale(problem, buffers.scaled);
-  const bool has_sizes = buffers.has_contacts || !problem.row_sizes.empty();
-  const bool is_done = !has_sizes && climb_strictly(problem, settings, workspace);
-  if (!is_done) climb(k_ladder, problem, settings, workspace);
-  if (workspace.result.status == LcpStatus::solved) doubt_large_answer(problem, workspace);
+  if (buffers.row_sizes.is_guess && climb_strictly(problem, settings, workspace)) return;
+  climb(k_ladder, problem, settings, workspace);
 }
 
 LcpResult robust(const LcpProblem& problem, const RobustSettings& settings) {

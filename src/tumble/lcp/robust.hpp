@@ -23,7 +23,6 @@ void validate(const RobustSettings& settings);
 //   ray_unproven, iteration_limit, numerical    otherwise; z is the best candidate met
 // For a problem without row_sizes that is not made of contacts, rows are first judged by their own terms alone; only if
 // no method satisfies that, with the sizes of `residual`.
-// An answer that is huge beside q is believed only if no proof is found that there is none.
 // Throws std::invalid_argument where `validate` does, or for a setting outside its range.
 LcpResult robust(const LcpProblem& problem, const RobustSettings& settings = {});
 

@@ -13,15 +13,7 @@ LcpWorkspace& LcpWorkspace::operator=(LcpWorkspace&&) noexcept = default;
 
 void start(const LcpProblem& problem, LcpWorkspace& workspace) {
   LcpWorkspace::Buffers& buffers = workspace.buffers();
-  buffers.has_contacts = find_contacts(problem, buffers.contacts);
-  if (!problem.row_sizes.empty()) {
-    buffers.row_sizes = problem.row_sizes;
-  } else if (buffers.has_contacts) {
-    contact_row_sizes(problem, buffers.contacts.places, buffers.row_sizes);
-  } else {
-    equilibrate(problem, buffers.scaled.scales);
-    round_off_sizes(problem, buffers.scaled.scales, buffers.row_sizes);
-  }
+  buffers.has_contacts = find_row_sizes(problem, buffers.contacts, buffers.scaled.scales, buffers.row_sizes);
   LcpResult& result = workspace.result;
   result.status = LcpStatus::numerical;
   result.z.clear();

@@ -1,7 +1,8 @@
 #include "tumble/lcp/solve_contacts.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
-#include <variant>
 
 #include "tumble/lcp/refine_contacts.hpp"
 #include "tumble/lcp/residual.hpp"
@@ -18,35 +19,31 @@ double tangential_velocity(const BodyContact& contact, const std::vector<Vector3
   return u_t;
 }
 
-// Impulses that satisfy the contacts better than A = J M^-1 J^T, which was rounded, can tell. They must be a solution
-// of the LCP all the same; it may have been taken for infeasible.
-void refine(const ContactSystem& system, const LcpProblem& problem, const LcpSettings& settings,
-            ContactSolution& solution) {
+// Impulses that satisfy the contacts better than A = J M^-1 J^T, which was rounded, can tell. The laws hold for them by
+// the Jacobians, so they are a solution even if the LCP of the rounded A was taken for infeasible.
+void refine(const ContactSystem& system, const LcpProblem& problem, ContactSolution& solution) {
   LcpResult& result = solution.result;
   if (result.status == LcpStatus::bad_input) return;
-  RefinedContacts refined = refine_contacts(system, result.z);
-  if (refined.z.empty()) return;
-  const LcpResidual parts = residual(problem, refined.z);
-  const double accepted = std::visit([](const auto& chosen) { return chosen.accepted_residual; }, settings);
-  if (!(parts.largest() <= accepted)) return;
+  RefinedContacts refined = refine_contacts(system, result.z, result.status == LcpStatus::solved);
+  const bool is_finite = std::all_of(refined.z.begin(), refined.z.end(), [](double x) { return std::isfinite(x); });
+  if (refined.z.empty() || !is_finite) return;
   result.z = std::move(refined.z);
   result.w = complement(problem, result.z);
-  result.parts = parts;
-  result.residual = parts.largest();
+  result.parts = residual(problem, result.z);
+  result.residual = result.parts.largest();
   result.status = LcpStatus::solved;
   result.certificate.clear();
   solution.velocity = std::move(refined.velocity);
 }
 
 // What the result means for the contacts and the bodies.
-ContactSolution read_solution(const ContactSystem& system, const LcpProblem& problem, const LcpSettings& settings,
-                              LcpResult result) {
+ContactSolution read_solution(const ContactSystem& system, const LcpProblem& problem, LcpResult result) {
   const Index count = system.contacts.size();
   ContactSolution solution;
   if (result.z.empty()) result.z.assign(4 * count, 0.0);  // bad_input
   solution.velocity = velocities_after(system, result.z);
   solution.result = std::move(result);
-  refine(system, problem, settings, solution);
+  refine(system, problem, solution);
   const std::vector<double>& z = solution.result.z;
   for (Index i = 0; i < count; ++i) {
     const double normal = z[i], slip = z[3 * count + i];
@@ -63,12 +60,12 @@ ContactSolution read_solution(const ContactSystem& system, const LcpProblem& pro
 
 ContactSolution solve_contacts(const ContactSystem& system, const LcpSettings& settings) {
   const LcpProblem problem = as_lcp(system);
-  return read_solution(system, problem, settings, solve_lcp(problem, settings));
+  return read_solution(system, problem, solve_lcp(problem, settings));
 }
 
 ContactSolution solve_contacts(const ContactSystem& system, const LcpSettings& settings, LcpWorkspace& workspace) {
   const LcpProblem problem = as_lcp(system);
-  return read_solution(system, problem, settings, solve_lcp(problem, settings, workspace));
+  return read_solution(system, problem, solve_lcp(problem, settings, workspace));
 }
 
 }  // namespace tumble

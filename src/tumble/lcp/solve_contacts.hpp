@@ -19,8 +19,9 @@ struct ContactSolution {
 
 // Solves `as_lcp(system)`, by `robust` unless told otherwise, and corrects the impulses by the Jacobians where they do
 // not bring the contacts to rest to 1e-13 of their speed: A = J M^-1 J^T, rounded, knows little of a body much heavier
-// than one it rests on. A correction can also find a solution where the LCP of the rounded A has none. Throws as
-// `validate` of the system, `as_lcp` and `solve_lcp`; with a workspace, as `solve_lcp` with one.
+// than one it rests on. A correction can also find a solution where the LCP of the rounded A has none: `solved` then
+// means that the laws hold by the Jacobians to 1e-13 of the speeds, and residual, basis and rung are those of that LCP.
+// Throws as `validate` of the system, `as_lcp` and `solve_lcp`; with a workspace, as `solve_lcp` with one.
 ContactSolution solve_contacts(const ContactSystem& system, const LcpSettings& settings = RobustSettings{});
 ContactSolution solve_contacts(const ContactSystem& system, const LcpSettings& settings, LcpWorkspace& workspace);
 
