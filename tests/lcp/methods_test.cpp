@@ -70,7 +70,7 @@ TEST(Methods, ValuesReachTheirFields) {
   EXPECT_EQ(set.start_basis, (std::vector<std::uint8_t>{0, 1, 1}));
   std::string text;
   for (const NamedSetting& setting : named_settings(settings)) text += to_text(setting.value) + ' ';
-  EXPECT_EQ(text, "7 40 1e-05 1e-08 quad 0 0 0,1,1 ");
+  EXPECT_EQ(text, "7 40 1e-05 1e-10 quad 0 0 0,1,1 ");
 }
 
 template <class Call>

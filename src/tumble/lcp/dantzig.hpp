@@ -7,9 +7,9 @@
 namespace tumble {
 
 struct DantzigSettings {
-  int max_pivots = 0;               // [-] >= 0; 0 means 100 n + 1000
-  double pivot_tolerance = 1e-12;   // [-] in [0, 1): smallest pivot, relative to the largest entry of its column
-  double accepted_residual = 1e-8;  // [-] in (0, 0.01]: `solved` means a residual no larger than this
+  int max_pivots = 0;                // [-] >= 0; 0 means 100 n + 1000
+  double pivot_tolerance = 1e-12;    // [-] in [0, 1): smallest pivot, relative to the largest entry of its column
+  double accepted_residual = 1e-10;  // [-] in (0, 0.01]: `solved` means a residual no larger than this
 };
 
 // Throws std::invalid_argument for a setting outside its range.

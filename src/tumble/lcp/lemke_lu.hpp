@@ -13,10 +13,10 @@ enum class Precision {
 };
 
 struct LemkeLuSettings {
-  int max_pivots = 0;               // [-] >= 0; 0 means 10 n + 100
-  double pivot_tolerance = 1e-8;    // [-] in [0, 1): smallest pivot, relative to the largest entry of its column
-  int max_exchanges = 40;           // [-] >= 0: pivots between two factorisations; 0: factors afresh at every pivot
-  double accepted_residual = 1e-8;  // [-] in (0, 0.01]: `solved` means a residual no larger than this
+  int max_pivots = 0;                // [-] >= 0; 0 means 10 n + 100
+  double pivot_tolerance = 1e-8;     // [-] in [0, 1): smallest pivot, relative to the largest entry of its column
+  int max_exchanges = 40;            // [-] >= 0: pivots between two factorisations; 0: factors afresh at every pivot
+  double accepted_residual = 1e-10;  // [-] in (0, 0.01]: `solved` means a residual no larger than this
   Precision precision = Precision::double_precision;
   int cover = 0;       // [-] >= 0: 0 is the cover of ones, any other number a pseudo-random one; another path
   double ridge = 0.0;  // [-] in [0, 1e-6]: added to the diagonal of the scaled M, to be judged without

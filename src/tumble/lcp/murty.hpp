@@ -7,8 +7,8 @@
 namespace tumble {
 
 struct MurtySettings {
-  int max_pivots = 0;               // [-] >= 0; 0 means 2^n, or 100 n + 10000 if that is less
-  double accepted_residual = 1e-8;  // [-] in (0, 0.01]: `solved` means a residual no larger than this
+  int max_pivots = 0;                // [-] >= 0; 0 means 2^n, or 100 n + 10000 if that is less
+  double accepted_residual = 1e-10;  // [-] in (0, 0.01]: `solved` means a residual no larger than this
 };
 
 // Throws std::invalid_argument for a setting outside its range.
