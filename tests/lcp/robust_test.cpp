@@ -15,7 +15,7 @@
 namespace tumble {
 namespace {
 
-using test::Random;
+using problems::Random;
 
 // Largest difference of the contact velocities that two solutions give, relative to the terms they are sums of.
 double motion_difference(const LcpProblem& problem, const std::vector<double>& z, const std::vector<double>& other) {
