@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
 #include <thread>
 
 #include "table.hpp"
@@ -33,6 +34,10 @@ TEST(Measure, JudgesAnswersAndOutlivesCrashesAndHangs) {
                 [](const Case& c) {
                   if (!c.has_no_solution) std::abort();
                 }),
+      answering("throws on the first", 1.0, true,
+                [](const Case& c) {
+                  if (!c.has_no_solution) throw std::runtime_error("no");
+                }),
       answering("hangs on the first", 1.0, true,
                 [](const Case& c) {
                   if (!c.has_no_solution) std::this_thread::sleep_for(std::chrono::minutes(1));
@@ -43,8 +48,8 @@ TEST(Measure, JudgesAnswersAndOutlivesCrashesAndHangs) {
   std::size_t num_done = 0;
   const std::vector<Measurement> m = measure(cases, solvers, 1.0, [&](std::size_t done) { num_done = done; });
   using enum Verdict;
-  const std::vector<Verdict> expected = {good,  wrong, said_no, crashed, timed_out, good,  //
-                                         wrong, wrong, good,    wrong,   wrong,     wrong};
+  const std::vector<Verdict> expected = {good,  wrong, said_no, crashed, crashed, timed_out, good,  //
+                                         wrong, wrong, good,    wrong,   wrong,   wrong,     wrong};
   ASSERT_EQ(m.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(m[i].verdict, expected[i]) << "case " << m[i].case_index << ", " << solvers[m[i].solver_index].name;
