@@ -23,8 +23,6 @@ bool is_normal_change(ContactMode from, ContactMode to) {
   return (from == ContactMode::open) != (to == ContactMode::open);
 }
 
-bool has_friction(const ContactPlace& place) { return place.s >= 0 && place.c >= 0 && place.friction > 0.0; }
-
 }  // namespace
 
 void ContactModes::start(const ContactStructure& structure) {
@@ -48,8 +46,8 @@ void ContactModes::sweep(const ContactStructure& structure, int num_sweeps) {
       if (place.c < 0) continue;
       const double f_n = f[2 * i] - velocity(2 * i) / structure.diagonal[2 * i];
       f[2 * i] = std::max(f_n, 0.0);
-      modes[i] = !(f_n > 0.0) ? ContactMode::open : has_friction(place) ? ContactMode::stick : ContactMode::slip_right;
-      if (!has_friction(place)) continue;
+      modes[i] = !(f_n > 0.0) ? ContactMode::open : place.has_friction() ? ContactMode::stick : ContactMode::slip_right;
+      if (!place.has_friction()) continue;
       const double limit = place.mu() * f[2 * i];
       const double f_t =
           modes[i] == ContactMode::open ? 0.0 : f[2 * i + 1] - velocity(2 * i + 1) / structure.diagonal[2 * i + 1];
@@ -63,7 +61,7 @@ void ContactModes::sweep(const ContactStructure& structure, int num_sweeps) {
 void ContactModes::hold(const ContactStructure& structure) {
   for (Index i = 0; i < modes.size(); ++i) {
     const bool slid_before = slip_direction(modes[i]) * structure.b[2 * i + 1] > 0.0;
-    if (has_friction(structure.places[i]) && modes[i] != ContactMode::open && !slid_before)
+    if (structure.places[i].has_friction() && modes[i] != ContactMode::open && !slid_before)
       modes[i] = ContactMode::stick;
   }
 }
@@ -76,7 +74,7 @@ void ContactModes::read_basis(const ContactStructure& structure, const std::vect
     const bool slips = is_basic(p.s);
     ContactMode mode = ContactMode::open;
     if (is_closed) mode = ContactMode::stick;
-    if (is_closed && (slips || !has_friction(p))) {
+    if (is_closed && (slips || !p.has_friction())) {
       mode = is_basic(p.plus) ? ContactMode::slip_left : ContactMode::slip_right;
     }
     modes.push_back(mode);
@@ -170,7 +168,7 @@ void ContactModes::find_impulses(const ContactStructure& structure, const std::v
   for (Index i = 0; i < k; ++i) f[static_cast<Index>(unknown_[i])] = x[i];
   for (Index i = 0; i < structure.places.size(); ++i) {
     const double direction = slip_direction(modes[i]);
-    if (direction != 0.0 && has_friction(structure.places[i])) {
+    if (direction != 0.0 && structure.places[i].has_friction()) {
       f[2 * i + 1] = -direction * structure.places[i].mu() * f[2 * i];
     }
   }
@@ -229,7 +227,7 @@ ContactModes::Objection ContactModes::objection(const ContactStructure& structur
   const ContactPlace& place = structure.places[i];
   const double f_n = f_[2 * i], f_t = f_[2 * i + 1], u_n = u_[2 * i], u_t = u_[2 * i + 1];
   const double size_n = size_[2 * i], size_t = size_[2 * i + 1];
-  const bool has_cone = has_friction(place);
+  const bool has_cone = place.has_friction();
   if (modes[i] == ContactMode::open) {
     return {has_cone ? ContactMode::stick : ContactMode::slip_right, -u_n / size_n};
   }
@@ -242,9 +240,9 @@ ContactModes::Objection ContactModes::objection(const ContactStructure& structur
   return {ContactMode::stick, -slip_direction(modes[i]) * u_t / size_t};
 }
 
-// The number of contradictions found; none is left if it is 0. Of all changes, those that open or close contacts come
-// first: friction found with a wrong set of closed contacts tells little, and a contact told to slip by mistake is not
-// told to stick again where another one holds the same bodies.
+// The number of modes changed; nothing contradicts them if it is 0. Of all changes, those that open or close contacts
+// come first: friction found with a wrong set of closed contacts tells little, and a contact told to slip by mistake is
+// not told to stick again where another one holds the same bodies.
 int ContactModes::change_modes(const ContactStructure& structure, Change change) {
   objections_.clear();
   bool has_normal = false;
@@ -308,14 +306,14 @@ int ContactModes::list_conditions(const ContactStructure& structure, Index i, co
   switch (modes[i]) {
     case ContactMode::open: values[0] = u[n]; return 1;
     case ContactMode::stick: values = {limit - f[t], limit + f[t]}; return 2;
-    default: values = {f[n], slip_direction(modes[i]) * u[t]}; return has_friction(structure.places[i]) ? 2 : 1;
+    default: values = {f[n], slip_direction(modes[i]) * u[t]}; return structure.places[i].has_friction() ? 2 : 1;
   }
 }
 
 ContactMode ContactModes::next_mode(const ContactStructure& structure, Index i, int condition, double u_t) const {
   switch (modes[i]) {
     case ContactMode::open:
-      return has_friction(structure.places[i]) && u_t < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
+      return structure.places[i].has_friction() && u_t < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
     case ContactMode::stick: return condition == 0 ? ContactMode::slip_left : ContactMode::slip_right;
     default: return condition == 0 ? ContactMode::open : ContactMode::stick;
   }
@@ -382,24 +380,6 @@ bool ContactModes::is_seen() {
   const bool is_seen = std::find(seen_.begin(), seen_.end(), hash) != seen_.end();
   seen_.push_back(hash);
   return is_seen;
-}
-
-void ContactModes::write(const ContactStructure& structure, std::vector<double>& z,
-                         std::vector<std::uint8_t>& basis) const {
-  z.assign(structure.owner.size(), 0.0);
-  basis.assign(z.size(), 0);
-  for (Index i = 0; i < modes.size(); ++i) {
-    const ContactPlace& p = structure.places[i];
-    const auto set = [&](int j, double value) {
-      z[static_cast<Index>(j)] = std::max(value, 0.0);
-      basis[static_cast<Index>(j)] = 1;
-    };
-    if (p.c >= 0 && modes[i] != ContactMode::open) set(p.c, f_[2 * i]);
-    if (p.s < 0) continue;
-    const double f_t = f_[2 * i + 1], u_t = u_[2 * i + 1];
-    if (modes[i] != ContactMode::open && has_friction(p)) set(f_t > 0.0 ? p.plus : p.minus, std::abs(f_t));
-    if (modes[i] != ContactMode::stick) set(p.s, std::abs(u_t) / p.slip);
-  }
 }
 
 }  // namespace tumble

@@ -40,8 +40,9 @@ class ContactModes {
 
   int rounds() const { return rounds_; }
 
-  // z of the LCP, and its basis.
-  void write(const ContactStructure& structure, std::vector<double>& z, std::vector<std::uint8_t>& basis) const;
+  // Impulses and velocities of the last run, per contact (n, t).
+  const std::vector<double>& impulses() const { return f_; }
+  const std::vector<double>& velocities() const { return u_; }
 
  private:
   struct Objection {

@@ -156,6 +156,27 @@ bool find_contacts(const LcpProblem& problem, ContactStructure& structure) {
   return read_responses(problem, structure) && is_symmetric(problem, structure);
 }
 
+void write_contacts(const ContactStructure& structure, const std::vector<ContactMode>& modes,
+                    const std::vector<double>& f, const std::vector<double>& u, std::vector<double>& z,
+                    std::vector<std::uint8_t>& basis) {
+  z.assign(structure.owner.size(), 0.0);
+  basis.assign(z.size(), 0);
+  const auto set = [&](int j, double value) {
+    z[static_cast<std::size_t>(j)] = std::max(value, 0.0);
+    basis[static_cast<std::size_t>(j)] = 1;
+  };
+  for (std::size_t i = 0; i < structure.places.size(); ++i) {
+    const ContactPlace& p = structure.places[i];
+    const double f_t = f[2 * i + 1], u_t = u[2 * i + 1];
+    const bool is_closed = p.c >= 0 && modes[i] != ContactMode::open;
+    if (is_closed) set(p.c, f[2 * i]);
+    if (p.s < 0) continue;
+    const bool is_plus = is_closed && f_t != 0.0 ? f_t > 0.0 : u_t < 0.0;
+    set(is_plus ? p.plus : p.minus, std::abs(f_t));
+    if (modes[i] != ContactMode::stick) set(p.s, std::abs(u_t) / p.slip);
+  }
+}
+
 void contact_row_sizes(const LcpProblem& problem, const std::vector<ContactPlace>& places, std::vector<double>& sizes) {
   double speed = 0.0;
   for (const double q_i : problem.q) speed = std::max(speed, std::abs(q_i));

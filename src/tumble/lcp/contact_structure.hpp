@@ -1,8 +1,10 @@
 // Recognises the LCP of planar contacts in a matrix. Not a public header.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "tumble/lcp/one_contact.hpp"
 #include "tumble/lcp/problem.hpp"
 
 namespace tumble {
@@ -22,6 +24,7 @@ struct ContactPlace {
   double slip = 1.0;      // > 0
 
   double mu() const { return friction / cone; }
+  bool has_friction() const { return c >= 0 && s >= 0; }
 };
 
 // The same problem with two unknowns per contact, the impulse (f_n, f_t), f_t = plus - minus:  u = A f + b.
@@ -45,6 +48,13 @@ bool find_contacts(const LcpProblem& problem, ContactStructure& structure);
 // Fills A and b for the places. False unless, in the rows of c and plus of every contact, the diagonal is positive,
 // columns of plus and minus are each other's negatives and column s acts on its own contact alone.
 bool read_responses(const LcpProblem& problem, ContactStructure& structure);
+
+// z of the LCP and a regular basis of it, from the impulse f and velocity u (2 m each: normal, tangential) and the mode
+// of each contact. Where a contact slips, or is open, the friction unknown of the side of the slip is basic, even if it
+// is 0: its row, w = 0, is what determines s.
+void write_contacts(const ContactStructure& structure, const std::vector<ContactMode>& modes,
+                    const std::vector<double>& f, const std::vector<double>& u, std::vector<double>& z,
+                    std::vector<std::uint8_t>& basis);
 
 // Row sizes of contacts, as a contact model gives them: the largest |q| among velocity rows, and what it is worth in
 // each cone row. n values.

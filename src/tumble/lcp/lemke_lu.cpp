@@ -20,8 +20,9 @@ struct Walk {
   double pivot_tolerance;
   int max_pivots;
   int max_exchanges;
-  std::vector<Real> x,
-      y;  // of the basic variables, slot by slot: values, and what they lose while `entering` grows by 1
+  bool has_ties;         // values that differ by no more than round-off tie, and the largest pivot decides
+  std::vector<Real>& x;  // of the basic variables, slot by slot: their values,
+  std::vector<Real>& y;  // and what they lose while `entering` grows by 1
   int entering = LuBasis<Real>::k_none;
   int pivots = 0;
   int factorisations = 0;
@@ -43,10 +44,12 @@ struct Walk {
     return size;
   }
 
-  int most_negative_slot() const {
+  // While z0 falls from where all values are >= 0: the slot whose variable is the first to become negative. Here x and
+  // y are those at z0 = 0, where z0 is to enter.
+  int first_negative_slot() const {
     int slot = LuBasis<Real>::k_none;
     for (int i = 0; i < static_cast<int>(x.size()); ++i) {
-      if (x[i] < Real(0) && (slot < 0 || x[i] < x[slot])) slot = i;
+      if (x[i] < Real(0) && y[i] < Real(0) && (slot < 0 || x[i] / y[i] > x[slot] / y[slot])) slot = i;
     }
     return slot;
   }
@@ -55,7 +58,7 @@ struct Walk {
   int blocking_slot() const {
     const int n = static_cast<int>(x.size());
     const Real smallest_pivot = Real(pivot_tolerance) * largest(y);
-    const Real error = round_off() * largest(x);
+    const Real error = has_ties ? Real(round_off() * largest(x)) : Real(0);
     const auto value = [&](int i) { return x[i] > Real(0) ? x[i] : Real(0); };
     Real step(0);
     int blocking = LuBasis<Real>::k_none;
@@ -95,13 +98,13 @@ struct Walk {
     ++pivots;
   }
 
-  // From a complementary basis to one without a negative value.
+  // From a complementary basis, refreshed, to one without a negative value.
   LcpStatus run() {
-    if (!refresh()) return LcpStatus::numerical;
-    int slot = most_negative_slot();
-    if (slot < 0) return LcpStatus::solved;
+    if (std::none_of(x.begin(), x.end(), [](const Real& value) { return value < Real(0); })) return LcpStatus::solved;
     entering = basis.z0();
     basis.direction(entering, y);
+    int slot = first_negative_slot();
+    if (slot < 0) return LcpStatus::numerical;
     for (;;) {
       if (pivots >= max_pivots) return LcpStatus::iteration_limit;
       const int leaving = basis.variable(slot);
@@ -115,27 +118,60 @@ struct Walk {
   }
 };
 
+// Takes z of the basis, if it is the best so far.
 template <class Real>
-LcpStatus walk(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspace& workspace,
-               LuBasis<Real>& basis) {
+void judge_values(const LcpProblem& problem, LcpWorkspace& workspace, const LuBasis<Real>& basis,
+                  const std::vector<Real>& x) {
   LcpWorkspace::Buffers& buffers = workspace.buffers();
-  LcpResult& result = workspace.result;
-  const auto n = problem.size();
-  const int max_pivots = settings.max_pivots > 0 ? settings.max_pivots : 10 * static_cast<int>(n) + 100;
-  basis.start(buffers.scaled, settings.ridge, settings.start_basis, settings.cover);
-  Walk<Real> walk{basis, settings.pivot_tolerance, max_pivots, settings.max_exchanges, {}, {}};
-  const LcpStatus status = walk.run();
-  result.pivots += walk.pivots;
-  result.refactorisations += walk.factorisations;
-  for (std::size_t i = 0; i < n; ++i) result.basis[i] = basis.is_basic(static_cast<int>(n + i));
-  basis.z_part(walk.x, buffers.z_scaled);
+  const std::size_t n = problem.size();
+  for (std::size_t i = 0; i < n; ++i) workspace.result.basis[i] = basis.is_basic(static_cast<int>(n + i));
+  basis.z_part(x, buffers.z_scaled);
   unscale(buffers.scaled, buffers.z_scaled, buffers.z);
   judge_candidate(problem, workspace);
+}
+
+template <class Real>
+LcpStatus walk_from(const std::vector<std::uint8_t>& start_basis, bool has_ties, const LcpProblem& problem,
+                    const LemkeLuSettings& settings, LcpWorkspace& workspace, LuBasis<Real>& basis,
+                    std::vector<Real>& x, std::vector<Real>& y) {
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  LcpResult& result = workspace.result;
+  const int n = static_cast<int>(problem.size());
+  const int max_pivots = settings.max_pivots > 0 ? settings.max_pivots : 10 * n + 100;
+  basis.start(buffers.scaled, settings.ridge, start_basis, settings.cover);
+  Walk<Real> walk{basis, settings.pivot_tolerance, max_pivots, settings.max_exchanges, has_ties, x, y};
+  LcpStatus status = walk.refresh() ? LcpStatus::solved : LcpStatus::numerical;
+  if (status == LcpStatus::solved && !start_basis.empty()) judge_values(problem, workspace, basis, x);
+  if (status == LcpStatus::solved && !(result.residual <= settings.accepted_residual)) {
+    status = walk.run();
+    judge_values(problem, workspace, basis, x);
+  }
+  result.pivots += walk.pivots;
+  result.refactorisations += walk.factorisations;
   if (status == LcpStatus::ray_unproven) {
-    basis.z_direction(walk.entering, walk.y, buffers.z_scaled);
+    basis.z_direction(walk.entering, y, buffers.z_scaled);
     unscale(buffers.scaled, buffers.z_scaled, result.certificate);
   }
   return status;
+}
+
+// From the start basis, or from none if it is singular. Where unknowns differ much in size, the round-off of one is the
+// value of another, and a tie may have ended the way one pivot too early: once more from there, without ties.
+template <class Real>
+LcpStatus walk(const LcpProblem& problem, const LemkeLuSettings& settings, LcpWorkspace& workspace,
+               LuBasis<Real>& basis, std::vector<Real>& x, std::vector<Real>& y) {
+  const LcpResult& result = workspace.result;
+  const auto from = [&](const std::vector<std::uint8_t>& start_basis, bool has_ties) {
+    return walk_from(start_basis, has_ties, problem, settings, workspace, basis, x, y);
+  };
+  const int pivots_before = result.pivots;
+  LcpStatus status = from(settings.start_basis, true);
+  const bool is_stuck = status == LcpStatus::numerical && result.pivots == pivots_before;
+  if (is_stuck && !settings.start_basis.empty()) status = from({}, true);
+  if (status != LcpStatus::solved || result.residual <= settings.accepted_residual) return status;
+  std::vector<std::uint8_t>& last_basis = workspace.buffers().basis;
+  last_basis = result.basis;
+  return from(last_basis, false);
 }
 
 }  // namespace
@@ -157,9 +193,11 @@ void run_lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings, Lc
   LcpStatus status = LcpStatus::numerical;
   if (is_quad) {
     LuBasis<Quad> basis;
-    status = walk(problem, settings, workspace, basis);
+    std::vector<Quad> x, y;
+    status = walk(problem, settings, workspace, basis, x, y);
   } else {
-    status = walk(problem, settings, workspace, workspace.buffers().lu_basis);
+    LcpWorkspace::Buffers& buffers = workspace.buffers();
+    status = walk(problem, settings, workspace, buffers.lu_basis, buffers.values, buffers.step);
   }
   result.status = status == LcpStatus::solved ? LcpStatus::numerical : status;
   if (result.residual <= settings.accepted_residual) {

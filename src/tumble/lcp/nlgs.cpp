@@ -15,8 +15,6 @@ using Index = std::size_t;
 
 constexpr int k_sweeps_per_check = 10;
 
-bool has_friction(const ContactPlace& place) { return place.c >= 0 && place.s >= 0; }
-
 // Impulses f and modes of the contacts, and how a sweep changes them.
 struct Sweeper {
   const ContactStructure& structure;
@@ -56,7 +54,7 @@ struct Sweeper {
     const Velocity u_n = velocity(n);
     const double A_nn = structure.diagonal[n];
     const double old_n = f[n];
-    if (!has_friction(place)) {
+    if (!place.has_friction()) {
       f[n] = std::max(old_n - u_n.value / A_nn, 0.0);
       modes[i] = f[n] > 0.0 ? ContactMode::slip_right : ContactMode::open;
       return relative(A_nn * (f[n] - old_n), size_of(place.c, u_n.terms));
@@ -111,28 +109,14 @@ struct Sweeper {
       const ContactPlace& place = structure.places[i];
       if (place.c < 0) continue;
       f[2 * i] = value(place.c);
-      if (has_friction(place)) f[2 * i + 1] = value(place.plus) - value(place.minus);
+      if (place.has_friction()) f[2 * i + 1] = value(place.plus) - value(place.minus);
     }
   }
 
-  // z of the LCP, and a basis of it that is not singular: the friction unknown of the side of the slip is basic even
-  // where it is 0.
-  void write(std::vector<double>& z, std::vector<std::uint8_t>& basis) const {
-    z.assign(structure.owner.size(), 0.0);
-    basis.assign(z.size(), 0);
-    const auto set = [&](int j, double value) {
-      z[static_cast<Index>(j)] = value;
-      basis[static_cast<Index>(j)] = 1;
-    };
-    for (Index i = 0; i < structure.places.size(); ++i) {
-      const ContactPlace& place = structure.places[i];
-      if (modes[i] != ContactMode::open) set(place.c, f[2 * i]);
-      if (place.s < 0) continue;
-      const double u_t = velocity(2 * i + 1).value;
-      const bool is_plus = modes[i] == ContactMode::open ? u_t < 0.0 : f[2 * i + 1] > 0.0;
-      set(is_plus ? place.plus : place.minus, std::abs(f[2 * i + 1]));
-      if (modes[i] != ContactMode::stick) set(place.s, std::abs(u_t) / place.slip);
-    }
+  void write(std::vector<double>& u, std::vector<double>& z, std::vector<std::uint8_t>& basis) const {
+    u.resize(f.size());
+    for (Index r = 0; r < u.size(); ++r) u[r] = velocity(r).value;
+    write_contacts(structure, modes, f, u, z, basis);
   }
 };
 
@@ -176,7 +160,7 @@ void run_nlgs(const LcpProblem& problem, const NlgsSettings& settings, LcpWorksp
     if (!is_last && (until_check > 0 || change > settings.accepted_residual)) continue;
     until_check = k_sweeps_per_check;
     const double before = result.residual;
-    sweeper.write(buffers.z, buffers.basis);
+    sweeper.write(buffers.values, buffers.z, buffers.basis);
     judge_candidate(problem, workspace);
     if (result.residual < before) std::swap(result.basis, buffers.basis);
     if (result.residual <= settings.accepted_residual) break;

@@ -46,17 +46,12 @@ void try_closed_form(const LcpProblem& problem, const RobustSettings& settings, 
       {problem(c, c), problem(c, plus), problem(plus, plus), problem.q[c], problem.q[plus], place.mu()});
   LcpResult& result = workspace.result;
   result.rung = LcpRung::closed_form;
-  buffers.z.assign(4, 0.0);
-  result.basis.assign(4, 0);
-  const auto set = [&](int j, double value) {
-    buffers.z[static_cast<std::size_t>(j)] = value;
-    result.basis[static_cast<std::size_t>(j)] = 1;
-  };
-  if (solution.mode != ContactMode::open) {
-    set(place.c, solution.f_n);
-    set(solution.f_t > 0.0 ? place.plus : place.minus, std::abs(solution.f_t));
-  }
-  if (solution.mode != ContactMode::stick) set(place.s, solution.slip_speed / place.slip);
+  const double slip = solution.mode == ContactMode::slip_left ? -solution.slip_speed : solution.slip_speed;
+  const double u_t = solution.mode == ContactMode::open ? problem.q[plus] : slip;
+  buffers.modes.modes.assign(1, solution.mode);
+  buffers.values.assign({solution.f_n, solution.f_t});
+  buffers.step.assign({0.0, u_t});
+  write_contacts(buffers.contacts, buffers.modes.modes, buffers.values, buffers.step, buffers.z, result.basis);
   offer(problem, settings, workspace);
 }
 
@@ -79,7 +74,8 @@ void run_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWor
   const auto change = is_one_by_one ? ContactModes::Change::worst : ContactModes::Change::all;
   const int max_rounds = is_one_by_one ? k_max_single_changes : k_max_newton_rounds;
   if (!count(buffers.modes.run(buffers.contacts, change, max_rounds))) return;
-  buffers.modes.write(buffers.contacts, buffers.z, result.basis);
+  write_contacts(buffers.contacts, buffers.modes.modes, buffers.modes.impulses(), buffers.modes.velocities(), buffers.z,
+                 result.basis);
   offer(problem, settings, workspace);
 }
 
