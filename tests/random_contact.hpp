@@ -7,6 +7,8 @@
 
 namespace tumble::test {
 
+using problems::Random;
+
 // A body with its contact point at r from the centre of mass, moving with v, ground below: A and b of its LCP.
 // Masses 1e-3 to 1e3 kg, sizes 1 cm to 10 m, steps 1e-6 to 0.1 s; friction 0 in one of eight.
 inline OneContact random_contact(Random& random, double max_friction) {

@@ -15,14 +15,22 @@ namespace {
 
 constexpr std::string_view k_blanks = " \t\r";
 
-std::vector<double> numbers(std::string_view text, const std::string& place) {
-  std::vector<double> values;
+std::vector<std::string> words(std::string_view text) {
+  std::vector<std::string> all;
   for (std::size_t at = text.find_first_not_of(k_blanks); at < text.size();) {
     const std::size_t stop = std::min(text.find_first_of(k_blanks, at), text.size());
-    const std::optional<double> value = parse_fraction(text.substr(at, stop - at));
+    all.emplace_back(text.substr(at, stop - at));
+    at = text.find_first_not_of(k_blanks, stop);
+  }
+  return all;
+}
+
+std::vector<double> numbers(std::string_view text, const std::string& place) {
+  std::vector<double> values;
+  for (const std::string& word : words(text)) {
+    const std::optional<double> value = parse_fraction(word);
     if (!value) throw std::invalid_argument(fmt::format("{}: expected numbers like 1e-3 or 1/3", place));
     values.push_back(*value);
-    at = text.find_first_not_of(k_blanks, stop);
   }
   return values;
 }
@@ -37,7 +45,7 @@ std::optional<std::string_view> value_of(std::string_view line, std::string_view
 }  // namespace
 
 KnownProblem parse_known_problem(std::string_view text, const std::string& name) {
-  KnownProblem known{name, parse_lcp(text, name), {}, {}, {}};
+  KnownProblem known{name, parse_lcp(text, name), {}, {}, {}, std::string(text), {}};
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
@@ -56,7 +64,10 @@ KnownProblem parse_known_problem(std::string_view text, const std::string& name)
       }
       known.num_solutions = static_cast<std::size_t>(count[0]);
     }
-    if (const auto value = value_of(line, "solution")) known.solutions.push_back(vector(*value));
+    if (const auto value = value_of(line, "solution")) {
+      known.solutions.push_back(vector(*value));
+      known.exact_solutions.push_back(words(*value));
+    }
     if (const auto value = value_of(line, "infeasible")) known.certificate = vector(*value);
   }
   return known;

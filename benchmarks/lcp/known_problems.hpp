@@ -18,6 +18,8 @@ struct KnownProblem {
   std::optional<std::size_t> num_solutions;    // number of vertex solutions; nothing if the text does not say
   std::vector<std::vector<double>> solutions;  // those that are listed
   std::vector<double> certificate;             // y >= 0 with M^T y <= 0 and q^T y < 0, or empty
+  std::string text;                            // what all this was read from
+  std::vector<std::vector<std::string>> exact_solutions;  // `solutions` as they are written: fractions
 };
 
 // The text of `parse_lcp`. Comment lines of these forms say what is known, all optional; other comments are skipped:

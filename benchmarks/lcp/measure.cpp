@@ -62,8 +62,9 @@ struct Pairs {
   std::size_t count() const { return cases.size() * solvers.size(); }
 };
 
-// The child: all pairs from `first` on.
-[[noreturn]] void run_pairs(const Pairs& pairs, std::size_t first, int pipe) {
+// The child: all pairs from `first` on. noexcept: a solver that throws ends the child here, and nothing of the caller
+// runs a second time.
+[[noreturn]] void run_pairs(const Pairs& pairs, std::size_t first, int pipe) noexcept {
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);

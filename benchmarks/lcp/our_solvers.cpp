@@ -2,16 +2,33 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #include "solver.hpp"
 
+#include "tumble/lcp/methods.hpp"
 #include "tumble/lcp/one_contact.hpp"
-#include "tumble/lcp/solve.hpp"
 
 namespace tumble::bench {
 namespace {
 
 constexpr std::size_t k_any_size = std::numeric_limits<std::size_t>::max();
+
+// The largest n that a method gets; one that is not named gets any. Above these a method takes seconds per problem, or
+// fails most.
+struct SizeLimit {
+  std::string_view method;
+  std::size_t n;
+};
+constexpr SizeLimit k_size_limits[] = {{"lemke", 200}, {"newton", 160}, {"dantzig", 160},
+                                       {"murty", 48},  {"pgs", 48},     {"enumerate", 8}};
+
+std::size_t size_limit(std::string_view method) {
+  for (const SizeLimit& limit : k_size_limits) {
+    if (limit.method == method) return limit.n;
+  }
+  return k_any_size;
+}
 
 // A method of `solve_lcp`, for cases up to a size.
 Solver method(const std::string& name, const LcpSettings& settings, std::size_t max_size = k_any_size) {
@@ -58,11 +75,13 @@ std::optional<Attempt> prepare_closed_form(const Case& c) {
 }  // namespace
 
 std::vector<Solver> our_solvers() {
-  return {
-      method("robust", RobustSettings{}),          warm<RobustSettings>("robust, warm"),
-      method("lemke", LemkeSettings{}, 200),       method("lemke_lu", LemkeLuSettings{}),
-      method("enumerate", EnumerateSettings{}, 8), {"one_contact", prepare_closed_form},
-  };
+  std::vector<Solver> solvers;
+  for (const LcpMethod& m : lcp_methods()) {
+    solvers.push_back(method(std::string(m.name), m.defaults, size_limit(m.name)));
+  }
+  solvers.push_back(warm<RobustSettings>("robust, warm"));
+  solvers.push_back({"one_contact", prepare_closed_form});
+  return solvers;
 }
 
 }  // namespace tumble::bench

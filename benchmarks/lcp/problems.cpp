@@ -204,7 +204,7 @@ ContactSystem tower(const Tower& tower, Random& random, std::size_t num_contacts
   for (Index k = 0; k < num_boxes; ++k) {
     double height = k + 1 == num_boxes ? 1.0 : 0.0;
     if (tower.is_graded && k > 0) height = static_cast<double>(k) / static_cast<double>(num_boxes - 1);
-    const double mass = test::power_of_two(tower.mass_exponent * height);
+    const double mass = power_of_two(tower.mass_exponent * height);
     const int box = add_box(system, mass, random, tower.is_moving, tower.step);
     const Index count = std::min(tower.contacts_per_face, num_contacts - system.contacts.size());
     for (Index i = 0; i < count; ++i) {

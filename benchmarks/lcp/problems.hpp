@@ -7,13 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "../../tests/random.hpp"
+#include "random.hpp"
 
 #include "tumble/lcp/contact_system.hpp"
 
 namespace tumble::problems {
-
-using test::Random;
 
 // All of these are solvable in exact arithmetic: q = J (v + h M^-1 f) and no offsets [Stewart & Trinkle 1996], and have
 // exactly `num_contacts` >= 1 contacts, n = 4 num_contacts.

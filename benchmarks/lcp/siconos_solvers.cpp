@@ -8,9 +8,9 @@ std::vector<tumble::bench::Solver> tumble::bench::siconos_solvers() { return {};
 #else
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
+#include "local_contacts.hpp"
 #include <numerics/FrictionContactProblem.h>
 #include <numerics/Friction_cst.h>
 #include <numerics/LinearComplementarityProblem.h>
@@ -72,26 +72,19 @@ Solver lcp_solver(const std::string& name, int id) {
           }};
 }
 
-// The contact problem itself: u = W r + q with two numbers per contact, normal and tangential.
+// The contact problem itself.
 struct ContactState {
-  ContactState(const LcpProblem& p, double tolerance) : options(solver_options_create(SICONOS_FRICTION_2D_NSGS)) {
-    const Index k = p.size() / 4;
-    // Row i of W is this row of the LCP.
-    const auto at = [k](Index i) { return i % 2 == 0 ? i / 2 : k + 2 * (i / 2); };
-    for (Index j = 0; j < 2 * k; ++j) {
-      for (Index i = 0; i < 2 * k; ++i) W.push_back(p(at(i), at(j)));
-      q.push_back(p.q[at(j)]);
-    }
-    for (Index i = 0; i < k; ++i) friction.push_back(p(3 * k + i, i));
+  ContactState(const LcpProblem& p, double tolerance)
+      : contacts(problems::local_contacts(p)), options(solver_options_create(SICONOS_FRICTION_2D_NSGS)) {
+    const Index k = contacts.friction.size();
     impulse.resize(2 * k);
     velocity.resize(2 * k);
-    z.resize(4 * k);
-    matrix = dense(W, 2 * k);
+    matrix = dense(contacts.W, 2 * k);
     problem.dimension = 2;
     problem.numberOfContacts = static_cast<int>(k);
     problem.M = matrix.get();
-    problem.q = q.data();
-    problem.mu = friction.data();
+    problem.q = contacts.q.data();
+    problem.mu = contacts.friction.data();
     options->dparam[SICONOS_DPARAM_TOL] = tolerance;
   }
   void run() {
@@ -100,21 +93,13 @@ struct ContactState {
     info = fc2d_driver(&problem, impulse.data(), velocity.data(), options.get());
   }
 
-  // z of the LCP for these impulses.
   Answer answer() {
-    const Index k = friction.size();
-    for (Index i = 0; i < k; ++i) {
-      double slip = q[2 * i + 1];
-      for (Index j = 0; j < 2 * k; ++j) slip += W[j * 2 * k + 2 * i + 1] * impulse[j];
-      z[i] = impulse[2 * i];
-      z[k + 2 * i] = std::max(impulse[2 * i + 1], 0.0);
-      z[k + 2 * i + 1] = std::max(-impulse[2 * i + 1], 0.0);
-      z[3 * k + i] = std::abs(slip);
-    }
+    z = problems::lcp_solution(contacts, impulse);
     return {info == 0, z};
   }
 
-  std::vector<double> W, q, friction, impulse, velocity, z;
+  problems::LocalContacts contacts;
+  std::vector<double> impulse, velocity, z;
   Matrix matrix;
   FrictionContactProblem problem{};
   Options options;

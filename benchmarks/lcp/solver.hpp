@@ -39,7 +39,7 @@ struct Solver {
   std::function<std::optional<Attempt>(const Case&)> prepare;  // nothing: not a solver for this case
 };
 
-// Ours: the table to add a row to, in our_solvers.cpp.
+// Ours: every method of `lcp_methods`, and what is none of them.
 std::vector<Solver> our_solvers();
 
 // Of other projects; empty if the package was not found when this was built.

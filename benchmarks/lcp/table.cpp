@@ -22,6 +22,9 @@ std::string time_text(double seconds) {
   return fmt::format("{:.3g} ms", 1e3 * seconds);
 }
 
+// Whether the solver came to an end: else `seconds` is no time of a run.
+bool has_ended(const Measurement& m) { return m.verdict != Verdict::crashed && m.verdict != Verdict::timed_out; }
+
 // All measurements of one solver in one group.
 std::string row(const std::string& solver, const std::vector<Case>& cases, const std::vector<Measurement>& measurements,
                 const std::map<std::size_t, double>& reference_seconds) {
@@ -30,7 +33,7 @@ std::string row(const std::string& solver, const std::vector<Case>& cases, const
   std::vector<double> seconds, ratios, pivots;
   for (const Measurement& m : measurements) {
     ++count[m.verdict];
-    if (m.verdict == Verdict::crashed || m.verdict == Verdict::timed_out) continue;
+    if (!has_ended(m)) continue;
     if (m.verdict == Verdict::good && !cases[m.case_index].has_no_solution) worst = std::max(worst, m.residual);
     seconds.push_back(m.seconds);
     if (m.pivots >= 0) pivots.push_back(m.pivots);
@@ -55,9 +58,7 @@ std::string tables(const std::vector<Case>& cases, const std::vector<Solver>& so
   }
   std::map<std::size_t, double> reference_seconds;
   for (const Measurement& m : measurements) {
-    if (solvers[m.solver_index].name == k_reference && m.verdict != Verdict::crashed) {
-      reference_seconds[m.case_index] = m.seconds;
-    }
+    if (solvers[m.solver_index].name == k_reference && has_ended(m)) reference_seconds[m.case_index] = m.seconds;
   }
   std::string text;
   for (const std::string& group : groups) {

@@ -19,7 +19,8 @@ TEST(Fclib, ReadsBackWhatItWrote) {
   for (const problems::Family& family : problems::families()) {
     for (const std::size_t num_contacts : {1u, 2u, 7u}) {
       problems::Random random(num_contacts);
-      const LcpProblem problem = as_lcp(family.make(random, num_contacts));
+      LcpProblem problem = as_lcp(family.make(random, num_contacts));
+      if (num_contacts > 1) problem.M[1] += 1.0;  // no longer symmetric: rows must not become columns
       problems::write_fclib(path, problem);
       const LcpProblem again = problems::read_fclib(path);
       EXPECT_EQ(again.M, problem.M) << family.name;

@@ -11,7 +11,7 @@ namespace {
 TEST(GeneratedProblems, HaveTheSizeAskedForAndComeAgainFromTheirSeed) {
   for (const problems::Family& family : problems::families()) {
     for (const std::size_t num_contacts : {1u, 2u, 3u, 10u, 23u, 100u}) {
-      test::Random random(num_contacts), again(num_contacts), other(1000 + num_contacts);
+      problems::Random random(num_contacts), again(num_contacts), other(1000 + num_contacts);
       const LcpProblem problem = as_lcp(family.make(random, num_contacts));
       EXPECT_EQ(problem.size(), 4 * num_contacts) << family.name;
       EXPECT_EQ(problem.M, as_lcp(family.make(again, num_contacts)).M) << family.name;
@@ -23,7 +23,7 @@ TEST(GeneratedProblems, HaveTheSizeAskedForAndComeAgainFromTheirSeed) {
 // M = (A, E; mu, -E^T, 0) with A = J M^-1 J^T: x^T A x >= 0 up to round-off in its terms, the premise of every proof
 // that these problems have a solution.
 TEST(GeneratedProblems, HaveAPositiveSemidefiniteResponse) {
-  test::Random random(1);
+  problems::Random random(1);
   for (const problems::Family& family : problems::families()) {
     for (int i = 0; i < 50; ++i) {
       const LcpProblem problem = as_lcp(family.make(random, 5));
@@ -43,7 +43,7 @@ TEST(GeneratedProblems, HaveAPositiveSemidefiniteResponse) {
 }
 
 TEST(GeneratedProblems, AStackAtRestStaysAtRestInItsNextStep) {
-  test::Random random(2);
+  problems::Random random(2);
   for (const std::size_t num_contacts : {2u, 4u, 10u, 20u}) {
     const ContactSystem system = problems::resting_tower(random, num_contacts);
     const LcpResult first = robust(as_lcp(system));

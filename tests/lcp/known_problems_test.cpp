@@ -15,15 +15,6 @@ namespace {
 
 using problems::KnownProblem;
 
-LcpProblem growing(std::size_t n) {  // z_i = 2^(i - 1)
-  LcpProblem problem;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) problem.M.push_back(i == j ? 1.0 : (j < i ? -1.0 : 0.0));
-    problem.q.push_back(-1.0);
-  }
-  return problem;
-}
-
 // The files of data/lcp. Each says how many vertex solutions there are, and lists all; found in rational arithmetic.
 const std::vector<KnownProblem>& known_problems() {
   static const std::vector<KnownProblem> known = problems::read_known_problems(TUMBLE_LCP_DATA);
@@ -126,12 +117,6 @@ TEST(KnownProblems, RefuseCommentsThatCannotBeTrue) {
   EXPECT_THROW(parse("# solution: x"), std::invalid_argument);
   EXPECT_THROW(parse("# solutions: -1"), std::invalid_argument);
   EXPECT_THROW(parse("# infeasible:"), std::invalid_argument);
-}
-
-TEST(KnownProblems, LemkeSurvivesGrowthOfTheSolution) {
-  const LcpResult result = lemke(growing(20));
-  ASSERT_EQ(result.status, LcpStatus::solved);
-  for (std::size_t i = 0; i < 20; ++i) EXPECT_DOUBLE_EQ(result.z[i], std::ldexp(1.0, static_cast<int>(i)));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "../random_contact.hpp"
+#include "random_problems.hpp"
 #include <gtest/gtest.h>
 
 #include "tumble/lcp/enumerate.hpp"
@@ -13,27 +13,10 @@
 namespace tumble {
 namespace {
 
-// Positive definite but not symmetric: exactly one solution.
-LcpProblem random_positive_definite(test::Random& random, std::size_t n) {
-  std::vector<double> root(n * n);
-  for (double& entry : root) entry = random.uniform(-1.0, 1.0);
-  LcpProblem problem;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      double sum = i == j ? 0.1 : 0.0;
-      for (std::size_t k = 0; k < n; ++k) sum += root[i * n + k] * root[j * n + k];
-      sum += (i < j ? 1.0 : (i > j ? -1.0 : 0.0)) * 0.3;
-      problem.M.push_back(sum);
-    }
-    problem.q.push_back(random.uniform(-1.0, 1.0));
-  }
-  return problem;
-}
-
 TEST(Lemke, AgreesWithEnumerationWhereTheSolutionIsUnique) {
   test::Random random(5);
   for (int i = 0; i < 300; ++i) {
-    const LcpProblem problem = random_positive_definite(random, 1 + static_cast<std::size_t>(i) % 8);
+    const LcpProblem problem = test::random_definite(random, 1 + static_cast<std::size_t>(i) % 8);
     const LcpResult pivoted = lemke(problem);
     const std::vector<LcpResult> all = enumerate_solutions(problem);
     ASSERT_EQ(pivoted.status, LcpStatus::solved);
@@ -46,7 +29,7 @@ TEST(Lemke, AgreesWithEnumerationWhereTheSolutionIsUnique) {
 TEST(Lemke, SolvesLargeProblems) {
   test::Random random(6);
   for (const std::size_t n : {50u, 120u, 200u}) {
-    const LcpProblem problem = random_positive_definite(random, n);
+    const LcpProblem problem = test::random_definite(random, n);
     const LcpResult result = lemke(problem);
     EXPECT_EQ(result.status, LcpStatus::solved);
     EXPECT_LT(residual(problem, result.z).largest(), 1e-12) << n;  // n^2 round-off at most
@@ -56,7 +39,7 @@ TEST(Lemke, SolvesLargeProblems) {
 TEST(Lemke, GivesTheScaledSolutionOfAScaledProblemBitForBit) {
   test::Random random(7);
   for (int i = 0; i < 200; ++i) {
-    const LcpProblem problem = random_positive_definite(random, 6);
+    const LcpProblem problem = test::random_definite(random, 6);
     LcpProblem scaled = problem;  // other units of force and velocity, by powers of two
     for (double& entry : scaled.M) entry = std::ldexp(entry, 17 - 40);
     for (double& entry : scaled.q) entry = std::ldexp(entry, -40);
@@ -121,7 +104,7 @@ TEST(Lemke, SolvesWeaklyCoupledChains) {
 
 TEST(Lemke, ReturnsWAndBasisThatBelongToZ) {
   test::Random random(8);
-  const LcpProblem problem = random_positive_definite(random, 10);
+  const LcpProblem problem = test::random_definite(random, 10);
   const LcpResult result = lemke(problem);
   EXPECT_EQ(result.w, complement(problem, result.z));
   for (std::size_t k = 0; k < 10; ++k) {
@@ -132,7 +115,7 @@ TEST(Lemke, ReturnsWAndBasisThatBelongToZ) {
 
 TEST(Lemke, StopsAtTheAllowedNumberOfPivots) {
   test::Random random(9);
-  const LcpResult result = lemke(random_positive_definite(random, 30), {.max_pivots = 3});
+  const LcpResult result = lemke(test::random_definite(random, 30), {.max_pivots = 3});
   EXPECT_EQ(result.status, LcpStatus::iteration_limit);
   EXPECT_EQ(result.pivots, 3);
   EXPECT_GT(result.residual, 1e-8);
@@ -161,7 +144,7 @@ TEST(Lemke, TraceShowsEquivalentTableaus) {
   test::Random random(8);
   for (int i = 0; i < 100; ++i) {
     const std::size_t n = 2 + static_cast<std::size_t>(i) % 5, width = 2 * n + 2;
-    const LcpProblem problem = random_positive_definite(random, n);
+    const LcpProblem problem = test::random_definite(random, n);
     const LemkeTrace trace = trace_lemke(problem);
     EXPECT_EQ(trace.result.z, lemke(problem).z);
     ASSERT_EQ(static_cast<int>(trace.pivots.size()), trace.result.pivots);

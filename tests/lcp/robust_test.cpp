@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "problems.hpp"
+#include "random_problems.hpp"
 #include <gtest/gtest.h>
 
 #include "tumble/lcp/infeasibility.hpp"
@@ -94,21 +95,10 @@ TEST(RobustWarmStart, AWrongBasisDoesNoHarm) {
   }
 }
 
-// A solution that is the only one, whatever the basis tried first: M is positive definite.
+// One solution, whatever the basis tried first, and at least one row that needs a z.
 LcpProblem definite(Random& random, std::size_t n) {
-  std::vector<double> factor(n * n);
-  for (double& x : factor) x = random.uniform(-1.0, 1.0);
-  LcpProblem problem;
-  problem.M.assign(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      for (std::size_t k = 0; k < n; ++k) problem.M[i * n + j] += factor[i * n + k] * factor[j * n + k];
-      if (i < j) problem.M[i * n + j] += 0.5;  // and not symmetric
-      if (i > j) problem.M[i * n + j] -= 0.5;
-    }
-    problem.M[i * n + i] += 0.1;
-    problem.q.push_back(i == 0 ? -1.0 : random.uniform(-1.0, 0.5));  // at least one row needs a z
-  }
+  LcpProblem problem = test::random_definite(random, n);
+  problem.q[0] = -1.0;
   return problem;
 }
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "../random.hpp"
 #include "other_units.hpp"
 #include "problems.hpp"
 #include <gtest/gtest.h>
@@ -80,7 +79,7 @@ void expect_laws(const ContactSystem& system, const ContactSolution& solution, d
 
 // A box on two corners, each of them there twice: the same, or up to 1e-14 apart.
 TEST(SolveContacts, TakesContactsThatAreNearlyTheSame) {
-  test::Random random(51);
+  problems::Random random(51);
   for (int i = 0; i < 200; ++i) {
     ContactSystem system{{{1, 1, 10}}, {{random.uniform(-1, 1), -1, random.uniform(-1, 1)}}, {}};
     for (const double r_x : {-0.5, -0.5, 0.5, 0.5}) {
@@ -97,7 +96,7 @@ TEST(SolveContacts, TakesContactsThatAreNearlyTheSame) {
 
 // Towers whose masses are up to 1e3 : 1 or 1 : 1e6 are at rest to the last digits of their speed.
 TEST(SolveContacts, SatisfiesTheContactsOfTowers) {
-  test::Random random(52);
+  problems::Random random(52);
   for (int i = 0; i < 100; ++i) {
     const ContactSystem system = problems::tower(random, 8);
     const ContactSolution solution = solve_contacts(system);
@@ -118,7 +117,7 @@ TEST(SolveContacts, GivesTheSameInOtherUnitsBitForBit) {
 }
 
 TEST(SolveContacts, GivesTheSameWithAWorkspace) {
-  test::Random random(53);
+  problems::Random random(53);
   LcpWorkspace workspace;
   for (int i = 0; i < 50; ++i) {
     const ContactSystem system = problems::wild(random, 1 + static_cast<std::size_t>(i % 3));

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace tumble::test {
+namespace tumble::problems {
 
 // About 2^x: exact at whole x, linear between, so that no libm is involved.
 inline double power_of_two(double exponent) {
@@ -43,4 +43,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace tumble::test
+}  // namespace tumble::problems
