@@ -14,19 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Fractions = std::vector<std::string>;
 
-// One solution, or the strongest statement why there is none.
-ExactResult solve_exactly(const ExactLcp& problem) {
-  ExactResult result = exact_lemke(problem);
-  if (result.status != LcpStatus::ray_unproven || problem.size() > k_max_exact_enumerate_size) return result;
-  ExactSolutionSet set = exact_solution_set(problem);
-  if (!set.vertices.empty()) return set.vertices.front();
-  if (set.status == LcpStatus::no_solution_proved) {
-    result.status = set.status;
-    result.certificate.clear();
-  }
-  return result;
-}
-
 // Fractions, and the nearest doubles on a line of their own where they say more.
 std::string lines(std::string_view name, const Fractions& numbers) {
   std::string text = fmt::format("{:<18}{}\n", name, fmt::join(numbers, " "));

@@ -1,4 +1,4 @@
-// tumble._core: systems of contacts as LCPs. Public face: tumble/lcp.py.
+// tumble._core: systems of contacts as LCPs. Public face: tumble/lcp/.
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// tumble._core: the LCP solvers. Public face: tumble/lcp.py.
+// tumble._core: the LCP solvers. Public face: tumble/lcp/.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -239,7 +239,7 @@ py::dict exact(std::vector<std::string> M, std::vector<std::string> q, const py:
   ExactResult result;
   {
     const py::gil_scoped_release without_gil;
-    result = basis.is_none() ? exact_lemke(problem) : exact_solution(problem, start);
+    result = basis.is_none() ? solve_exactly(problem) : exact_solution(problem, start);
   }
   return py::dict("status"_a = py::str(to_string(result.status)), "z"_a = as_list(result.z), "w"_a = as_list(result.w),
                   "basis"_a = as_bools(result.basis), "certificate"_a = as_list(result.certificate),

@@ -41,6 +41,7 @@ const Shape& known_shape(const std::string& name) {
   static const std::map<std::string, Shape> shapes = {
       {"all-ones", {{}, {{0, 1}}}},
       {"vertex-and-ray", {{{"1", "1"}}, {}}},
+      {"small-beside-huge", {{{"1", "1"}}, {}}},
       {"stick", {{}, {{0, 1}}}},
       {"painleve-jam", {{}, {{0, 1}}}},
       // Without a force of friction the slip speed is bounded from below only.
@@ -106,7 +107,7 @@ TEST(Exact, LemkeFindsAKnownSolutionOrProvesWhyNot) {
     const ExactLcp problem = parse_exact_lcp(known.text);
     const ExactResult result = exact_lemke(problem);
     // Lemke's path ends on a ray although there are solutions, or feasible points.
-    if (known.name == "bimatrix" || known.name == "feasible-without-solution") {
+    if (known.name == "bimatrix" || known.name.ends_with("-without-solution")) {
       EXPECT_EQ(result.status, LcpStatus::ray_unproven) << known.name;
       EXPECT_FALSE(result.certificate.empty()) << known.name;
       continue;
@@ -124,6 +125,21 @@ TEST(Exact, LemkeFindsAKnownSolutionOrProvesWhyNot) {
       EXPECT_EQ(exact_solution(problem, result.basis).z, result.z) << known.name;
     }
   }
+}
+
+TEST(Exact, DecidesEveryKnownProblem) {
+  for (const problems::KnownProblem& known : known_problems()) {
+    const ExactResult result = solve_exactly(parse_exact_lcp(known.text));
+    EXPECT_EQ(result.status, expected_status(known)) << known.name;
+    EXPECT_EQ(result.certificate.empty(), result.status != LcpStatus::infeasible) << known.name;
+  }
+}
+
+TEST(Exact, ASolutionBeyondTheRangeOfDoubleLeavesNoInfinity) {
+  const LcpResult result = exact_lemke(LcpProblem{{1e-300, 0, 0, 1}, {-1e300, -1}, {}});
+  EXPECT_EQ(result.status, LcpStatus::numerical);
+  EXPECT_EQ(result.z, (std::vector<double>{0, 0}));
+  EXPECT_EQ(result.w, (std::vector<double>{-1e300, -1}));
 }
 
 TEST(Exact, SingularBasesAreSolvedWhereTheyCanBe) {

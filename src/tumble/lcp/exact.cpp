@@ -115,12 +115,30 @@ LcpResult exact_lemke(const LcpProblem& problem) {
   result.z = found.z.empty() ? std::vector<double>(problem.size(), 0.0) : nearest_doubles(found.z);
   result.basis = found.basis.empty() ? std::vector<std::uint8_t>(problem.size(), 0) : std::move(found.basis);
   result.certificate = nearest_doubles(found.certificate);
-  result.w = complement(problem, result.z);
-  result.parts = residual(problem, result.z);
-  result.residual = result.parts.largest();
+  const auto judge_z = [&] {
+    result.w = complement(problem, result.z);
+    result.parts = residual(problem, result.z);
+    result.residual = result.parts.largest();
+  };
+  judge_z();
   // An exact solution beyond the range of double has no z to return.
   if (result.status == LcpStatus::solved && !(result.residual <= k_largest_accepted_residual)) {
     result.status = LcpStatus::numerical;
+    result.z.assign(problem.size(), 0.0);
+    judge_z();
+  }
+  return result;
+}
+
+ExactResult solve_exactly(const ExactLcp& problem) {
+  ExactResult result = exact_lemke(problem);
+  const bool is_decided = result.status == LcpStatus::solved || result.status == LcpStatus::infeasible;
+  if (is_decided || problem.size() > k_max_exact_enumerate_size) return result;
+  ExactSolutionSet set = exact_solution_set(problem);
+  if (!set.vertices.empty()) return set.vertices.front();
+  if (set.status == LcpStatus::no_solution_proved) {
+    result.status = set.status;
+    result.certificate.clear();
   }
   return result;
 }

@@ -58,8 +58,14 @@ ExactResult exact_solution(const ExactLcp& problem, std::span<const std::uint8_t
 ExactResult exact_lemke(const ExactLcp& problem);
 
 // The same for the doubles of a problem, each answer rounded to the nearest double at the end. w and the residual are
-// those of the rounded z. A rounded certificate may miss M'y <= 0 by its round-off: `proves_infeasible` tells.
+// those of the rounded z; numerical, with z = 0, for a solution beyond the range of double. A rounded certificate may
+// miss M'y <= 0 by its round-off: `proves_infeasible` tells.
 LcpResult exact_lemke(const LcpProblem& problem);
+
+// One solution, or the best proof that there is none: `exact_lemke` and, where that ends without either and n <= 12,
+// `exact_solution_set`, of which the first vertex is taken. For n > 12 the status may be ray_unproven or
+// iteration_limit.
+ExactResult solve_exactly(const ExactLcp& problem);
 
 // The whole solution set: a union of polyhedra, `faces`, each the hull of its vertices plus the cone of its rays. It is
 // a union of faces of the polyhedron z >= 0, M z + q >= 0, and these are the largest of them.
