@@ -139,6 +139,15 @@ TEST(Lemke, ReportsNumbersBeyondDoubleAsAStatus) {
   EXPECT_FALSE(result.residual < 1.0);
 }
 
+// w_1 = -7e-14 at z = (10, 0) is round-off beside z_0's 10, and all that row 1 is about.
+TEST(Lemke, SolvesARowWhoseValuesAreSmallBesideOthers) {
+  const double small = -7.10542739e-15;
+  const LcpResult result = lemke({{0.1, small, small, 1.1}, {-1, 0}, {}});
+  EXPECT_EQ(result.status, LcpStatus::solved);
+  EXPECT_EQ(result.z[0], 10.0);
+  EXPECT_NEAR(result.z[1], -10.0 * small / 1.1, 1e-28);  // 10 round-offs
+}
+
 // A tableau T holds the same equations as the first one, T_0, solved for the basic variables: T_0,B T = T_0.
 TEST(Lemke, TraceShowsEquivalentTableaus) {
   test::Random random(8);

@@ -18,7 +18,7 @@ struct PivotOutcome {
 
 // `on_pivot(entering, leaving)` is called after every pivot.
 template <class OnPivot>
-PivotOutcome run_pivots(Tableau& tableau, const LemkeSettings& settings, int max_pivots, OnPivot on_pivot) {
+PivotOutcome run_pivots(Tableau& tableau, double pivot_tolerance, bool has_ties, int max_pivots, OnPivot on_pivot) {
   int entering = tableau.z0();
   tableau.enter(entering);
   int leaving = tableau.pivot(tableau.row_of_smallest_value());
@@ -26,7 +26,7 @@ PivotOutcome run_pivots(Tableau& tableau, const LemkeSettings& settings, int max
   for (int pivots = 1; pivots < max_pivots; ++pivots) {
     entering = tableau.complement_of(leaving);
     tableau.enter(entering);
-    const auto row = tableau.blocking_row(settings.pivot_tolerance);
+    const auto row = tableau.blocking_row(pivot_tolerance, has_ties);
     if (!row) return {LcpStatus::ray_unproven, pivots};
     leaving = tableau.pivot(*row);
     on_pivot(entering, leaving);
@@ -36,14 +36,14 @@ PivotOutcome run_pivots(Tableau& tableau, const LemkeSettings& settings, int max
 }
 
 template <class OnPivot>
-void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWorkspace& workspace, OnPivot on_pivot) {
+void walk(const LcpProblem& problem, const LemkeSettings& settings, bool has_ties, LcpWorkspace& workspace,
+          OnPivot on_pivot) {
   LcpWorkspace::Buffers& buffers = workspace.buffers();
   LcpResult& result = workspace.result;
-  result.rung = LcpRung::lemke;
   Tableau& tableau = buffers.tableau;
   tableau.start(buffers.scaled);
   const int max_pivots = settings.max_pivots > 0 ? settings.max_pivots : 100 * static_cast<int>(problem.size()) + 1000;
-  const PivotOutcome outcome = run_pivots(tableau, settings, max_pivots, on_pivot);
+  const PivotOutcome outcome = run_pivots(tableau, settings.pivot_tolerance, has_ties, max_pivots, on_pivot);
   result.pivots += outcome.pivots;
   tableau.basic_z(result.basis);
 
@@ -60,11 +60,20 @@ void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWork
     unscale(buffers.scaled, buffers.z_scaled, buffers.z);
     judge_candidate(problem, workspace);
   }
-  result.status = outcome.status == LcpStatus::solved ? LcpStatus::numerical : outcome.status;
-  if (result.residual <= settings.accepted_residual) {
-    result.status = LcpStatus::solved;
-  } else if (outcome.status == LcpStatus::ray_unproven) {
-    tableau.z_direction(buffers.z_scaled);
+  conclude(outcome.status, settings.accepted_residual, result);
+}
+
+template <class OnPivot>
+void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWorkspace& workspace, OnPivot on_pivot) {
+  LcpWorkspace::Buffers& buffers = workspace.buffers();
+  LcpResult& result = workspace.result;
+  result.rung = LcpRung::lemke;
+  walk(problem, settings, true, workspace, on_pivot);
+  // What is round-off beside a large value can be all there is of a small one: a tie may have ended the walk one pivot
+  // too early.
+  if (result.status == LcpStatus::numerical) walk(problem, settings, false, workspace, on_pivot);
+  if (result.status == LcpStatus::ray_unproven) {
+    buffers.tableau.z_direction(buffers.z_scaled);
     unscale(buffers.scaled, buffers.z_scaled, result.certificate);
   }
 }

@@ -17,9 +17,10 @@ void validate(const LemkeSettings& settings);
 
 // One solution of the problem, if Lemke finds it: guaranteed (up to rounding) if M is copositive-plus and the problem
 // feasible, and for the contact problems of this library, not for every M. For any n; about n pivots of n^2 operations
-// each. Whatever way the pivots end, the z they leave is solved for anew from its basis and judged by `residual`.
-// Status: solved, ray_unproven (the certificate is the ray's direction in z), iteration_limit or numerical.
-// Throws std::invalid_argument where `validate` does, or for a setting outside its range.
+// each. Whatever way the pivots end, the z they leave is solved for anew from its basis and judged by `residual`; if
+// they end at a z that is not right, they are walked once more without a tie rule. Status: solved, ray_unproven (the
+// certificate is the ray's direction in z), iteration_limit or numerical. Throws std::invalid_argument where `validate`
+// does, or for a setting outside its range.
 LcpResult lemke(const LcpProblem& problem, const LemkeSettings& settings = {});
 
 // One pivot of the method as a textbook shows it. Variables are numbered w = 0 .. n-1, z = n .. 2n-1, z0 = 2n.
@@ -31,7 +32,7 @@ struct LemkePivot {
 };
 
 // The same solve, with every pivot written down. z0 is in the unit that makes the largest entry of its column in
-// `start` -1; the others are powers of two, of the scaling.
+// `start` -1; the others are powers of two, of the scaling. A second walk begins, from `start`, where z0 enters again.
 struct LemkeTrace {
   LcpResult result;
   std::vector<double> start;  // the tableau of w - M z - d z0 = q, before the first pivot

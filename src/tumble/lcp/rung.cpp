@@ -56,6 +56,13 @@ void judge_candidate(const LcpProblem& problem, LcpWorkspace& workspace) {
   std::swap(result.w, buffers.w);
 }
 
+void conclude(LcpStatus status, double accepted_residual, LcpResult& result) {
+  result.status = status == LcpStatus::solved ? LcpStatus::numerical : status;
+  if (!(result.residual <= accepted_residual)) return;
+  result.status = LcpStatus::solved;
+  result.certificate.clear();
+}
+
 bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& buffers, double tolerance) {
   const ScaledProblem& problem = buffers.scaled;
   buffers.z_scaled.assign(problem.size(), 0.0);

@@ -27,6 +27,10 @@ bool solve_trivially(const LcpProblem& problem, LcpWorkspace& workspace);
 // Judges buffers.z, and takes it, with its w, as the result if it is better than what the result holds.
 void judge_candidate(const LcpProblem& problem, LcpWorkspace& workspace);
 
+// How a method ends, whose pivots ended with `status`: what is right is solved, in whatever way they ended, and what is
+// not is not.
+void conclude(LcpStatus status, double accepted_residual, LcpResult& result);
+
 // Solves M_BB z_B = -q_B for the basis given, in scaled numbers, into buffers.z_scaled. False if M_BB is singular, up
 // to `tolerance` as in `DenseLu::factor`.
 bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& buffers, double tolerance = 0.0);

@@ -49,8 +49,9 @@ void Tableau::enter(int entering) {
   for (int i = 0; i < n_; ++i) column_entries_[i] = from[i * stride_];
 }
 
-std::optional<int> Tableau::blocking_row(double pivot_tolerance) const {
-  constexpr double round_off = 1e-14;  // of the sizes of the terms summed so far: some 50 rounding errors
+std::optional<int> Tableau::blocking_row(double pivot_tolerance, bool has_ties) const {
+  // Of the sizes of the terms summed so far: some 50 rounding errors.
+  const double round_off = has_ties ? 1e-14 : 0.0;
   double largest = 0.0;
   for (const double entry : column_entries_) largest = std::max(largest, std::abs(entry));
   const double smallest_pivot = pivot_tolerance * largest;

@@ -25,14 +25,13 @@ class Tableau {
   // The entry of any variable, basic or not, in a row.
   double entry(int row, int variable) const;
 
-  // Chooses the variable that is to enter, and copies its column to `column()`.
+  // Chooses the variable that is to enter, and copies its column.
   void enter(int entering);
-  const std::vector<double>& column() const { return column_entries_; }
 
   // The row whose basic variable first reaches 0 when the entering one grows; nothing if none does (a ray). Values that
-  // differ by no more than their round-off tie. Ties go to z0, else to the largest pivot: in floating point that loses
-  // less than a lexicographic rule.
-  std::optional<int> blocking_row(double pivot_tolerance) const;
+  // differ by no more than their round-off tie, if `has_ties`. Ties go to z0, else to the largest pivot: in floating
+  // point that loses less than a lexicographic rule.
+  std::optional<int> blocking_row(double pivot_tolerance, bool has_ties) const;
 
   // Makes the chosen variable basic in `row`; returns the variable that leaves.
   int pivot(int row);
