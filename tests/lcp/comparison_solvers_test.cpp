@@ -524,5 +524,12 @@ TEST(ComparisonSolvers, ReportNumbersBeyondDoubleAsAStatus) {
   }
 }
 
+// A ratio beyond the largest double is one all the same: a variable that blocks nowhere else blocks there.
+TEST(Dantzig, TakesRatiosBeyondDouble) {
+  const LcpResult result = dantzig({{1, -1e-310, 0, 1}, {1, -1}, {}}, {.pivot_tolerance = 0.0});
+  EXPECT_EQ(result.status, LcpStatus::solved);
+  EXPECT_EQ(result.z, (std::vector<double>{0, 1}));
+}
+
 }  // namespace
 }  // namespace tumble

@@ -128,6 +128,7 @@ void ContactModes::fill_equations(const ContactStructure& structure) {
 
 // LU in place, within the profile, without exchanges.
 void ContactModes::factor(const ContactStructure& structure) {
+  ++factorisations_;
   list_unknowns(structure);
   fill_equations(structure);
   const Index k = unknown_.size();
@@ -273,13 +274,14 @@ int ContactModes::change_modes(const ContactStructure& structure, Change change)
 
 bool ContactModes::run(const ContactStructure& structure, Change change, int max_rounds) {
   seen_.clear();
+  factorisations_ = 0;
   ridge_ = k_ridge;
-  for (rounds_ = 1;; ++rounds_) {
+  for (int round = 1;; ++round) {
     factor(structure);
     find_impulses(structure, structure.b, f_);
     refine(structure);
     if (change_modes(structure, change) == 0) return true;
-    if (rounds_ == max_rounds || is_seen()) return false;
+    if (round == max_rounds || is_seen()) return false;
   }
 }
 
@@ -333,7 +335,8 @@ bool ContactModes::follow(const ContactStructure& structure, int max_steps) {
   Index changed = modes.size();
   int border = 0;
   seen_.clear();
-  for (rounds_ = 1; rounds_ <= max_steps; ++rounds_) {
+  factorisations_ = 0;
+  for (int step_count = 0; step_count < max_steps; ++step_count) {
     factor(structure);
     find_impulses(structure, structure.b, f_);
     find_impulses(structure, drift_, f_slope_);

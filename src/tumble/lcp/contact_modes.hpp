@@ -38,7 +38,8 @@ class ContactModes {
   // leads nowhere: into a ray, or, where contacts depend on each other, in a circle.
   bool follow(const ContactStructure& structure, int max_steps);
 
-  int rounds() const { return rounds_; }
+  // Of the last run or path.
+  int factorisations() const { return factorisations_; }
 
   // Impulses and velocities of the last run, per contact (n, t).
   const std::vector<double>& impulses() const { return f_; }
@@ -68,7 +69,7 @@ class ContactModes {
   ContactMode next_mode(const ContactStructure& structure, std::size_t i, int condition, double u_t) const;
   static int border_condition(ContactMode from, ContactMode to);
 
-  int rounds_ = 0;
+  int factorisations_ = 0;
   double ridge_ = 0.0;                     // [-] of the diagonal, added to it
   std::vector<double> swept_;              // impulses of the sweeps
   std::vector<std::uint64_t> seen_;        // hashes of the modes tried in this run

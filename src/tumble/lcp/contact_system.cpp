@@ -32,11 +32,11 @@ struct Row {
 Row normal_row(const BodyContact& c) { return {{c.body_a, c.body_b}, {&c.normal_a, &c.normal_b}}; }
 Row tangent_row(const BodyContact& c) { return {{c.body_a, c.body_b}, {&c.tangent_a, &c.tangent_b}}; }
 
-double velocity_along(const ContactSystem& system, const Row& row) {
+double velocity_along(const Row& row, const std::vector<Vector3>& velocity) {
   double sum = 0.0;
   for (Index k = 0; k < 2; ++k) {
     if (row.body[k] < 0) continue;
-    const Vector3& v = system.velocity[static_cast<Index>(row.body[k])];
+    const Vector3& v = velocity[static_cast<Index>(row.body[k])];
     for (Index i = 0; i < 3; ++i) sum += (*row.part[k])[i] * v[i];
   }
   return sum;
@@ -124,8 +124,7 @@ LcpProblem as_lcp(const ContactSystem& system) {
     entry(s_i, c_i) = c.friction;
     entry(s_i, plus_i) = entry(s_i, minus_i) = -1.0;
 
-    const double u_n = velocity_along(system, normal_row(c)) + c.offset;
-    const double u_t = velocity_along(system, tangent_row(c));
+    const auto [u_n, u_t] = velocity_at(c, system.velocity);
     problem.q[c_i] = u_n;
     problem.q[plus_i] = u_t;
     problem.q[minus_i] = -u_t;
@@ -138,6 +137,11 @@ LcpProblem as_lcp(const ContactSystem& system) {
     problem.row_sizes[3 * num_contacts + i] = nn > 0.0 ? speed / nn : 0.0;
   }
   return problem;
+}
+
+std::array<double, 2> velocity_at(const BodyContact& contact, const std::vector<Vector3>& velocity) {
+  return {velocity_along(normal_row(contact), velocity) + contact.offset,
+          velocity_along(tangent_row(contact), velocity)};
 }
 
 ContactMode contact_mode(double normal_impulse, double slip_speed, double u_t) {

@@ -1,6 +1,7 @@
 // Planar frictional contacts between rigid bodies, and their LCP.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "tumble/lcp/one_contact.hpp"
@@ -42,6 +43,9 @@ void validate(const ContactSystem& system);
 //   mu c - b+ - b- >= 0      complementary to  s >= 0
 // Row sizes: the largest |u_n|, |u_t| before the impulses; that over the contact's own normal response for the cones.
 LcpProblem as_lcp(const ContactSystem& system);
+
+// (u_n, u_t) of a contact between bodies with these velocities.
+std::array<double, 2> velocity_at(const BodyContact& contact, const std::vector<Vector3>& velocity);
 
 // What a contact does, from its entries of z and the tangential velocity after the impulses.
 ContactMode contact_mode(double normal_impulse, double slip_speed, double u_t);

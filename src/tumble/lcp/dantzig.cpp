@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "tumble/lcp/infeasibility.hpp"
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace tumble {
 namespace {
@@ -42,7 +41,7 @@ struct Drive {
   int blocking_slot() const {
     const double smallest = smallest_pivot();
     int blocking = LuBasis<double>::k_none;
-    double step = std::numeric_limits<double>::infinity();
+    double step = 0.0;
     const auto comes_first = [&](int a, int b) {
       return basis.variable(a) == basis.z0() ||
              (basis.variable(b) != basis.z0() && basis.variable(a) < basis.variable(b));
@@ -50,7 +49,7 @@ struct Drive {
     for (int i = 0; i < static_cast<int>(x.size()); ++i) {
       if (!(y[i] > smallest)) continue;
       const double ratio = std::max(x[i], 0.0) / y[i];
-      if (ratio < step || (ratio == step && comes_first(i, blocking))) {
+      if (blocking < 0 || ratio < step || (ratio == step && comes_first(i, blocking))) {
         blocking = i;
         step = ratio;
       }
@@ -66,7 +65,7 @@ struct Drive {
     for (int i = 0; i < static_cast<int>(x.size()); ++i) {
       if (!(-y[i] > smallest) || !(x[i] < 0.0)) continue;
       const double z0 = x[i] / y[i];
-      if (z0 > highest || (z0 == highest && basis.variable(i) < basis.variable(blocking))) {
+      if (blocking < 0 || z0 > highest || (z0 == highest && basis.variable(i) < basis.variable(blocking))) {
         blocking = i;
         highest = z0;
       }
@@ -152,21 +151,13 @@ void run_dantzig(const LcpProblem& problem, const DantzigSettings& settings, Lcp
   buffers.lu_basis.z_part(drive.x, buffers.z_scaled);
   unscale(buffers.scaled, buffers.z_scaled, buffers.z);
   judge_candidate(problem, workspace);
-  result.status = status == LcpStatus::solved ? LcpStatus::numerical : status;
-  if (result.residual <= settings.accepted_residual) {
-    result.status = LcpStatus::solved;
-  } else if (status == LcpStatus::ray_unproven) {
+  conclude(status, settings.accepted_residual, result);
+  if (result.status == LcpStatus::ray_unproven) {
     buffers.lu_basis.z_direction(drive.entering, drive.y, buffers.z_scaled);
     certify(problem, workspace);
   }
 }
 
-LcpResult dantzig(const LcpProblem& problem, const DantzigSettings& settings) {
-  validate(problem);
-  validate(settings);
-  LcpWorkspace workspace;
-  solve_prepared(problem, settings, workspace, run_dantzig);
-  return std::move(workspace.result);
-}
+LcpResult dantzig(const LcpProblem& problem, const DantzigSettings& settings) { return solve_lcp(problem, settings); }
 
 }  // namespace tumble

@@ -2,8 +2,6 @@
 // >= 0 for one i after the other. Of its extreme rays only those with z_i w_i = 0 for every i so far are kept [De
 // Schutter & De Moor 1995]. Those with t > 0 are vertices of the solution set, the others its rays.
 #include <algorithm>
-#include <bit>
-#include <numeric>
 #include <utility>
 
 #include "tumble/lcp/integer_lcp.hpp"

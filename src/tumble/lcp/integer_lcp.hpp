@@ -31,9 +31,6 @@ struct IntegerLcp {
   std::vector<Integer> entries;  // n x (n + 1), row after row: M', and q' in the last column
   std::vector<Rational> z_unit, w_unit;
   std::size_t num_bits = 0;  // of the longest entry
-
-  const Integer& M(std::size_t i, std::size_t j) const { return entries[i * (n + 1) + j]; }
-  const Integer& q(std::size_t i) const { return entries[i * (n + 1) + n]; }
 };
 
 IntegerLcp integers_of(const RationalLcp& problem);

@@ -1,13 +1,13 @@
 #include "tumble/lcp/lemke_lu.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "tumble/lcp/lu_basis.hpp"
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace tumble {
 namespace {
@@ -27,6 +27,7 @@ struct Walk {
   int pivots = 0;
   int factorisations = 0;
 
+  // Of a value after some dozen pivots on one factorisation.
   static Real round_off() { return Real(256) * std::numeric_limits<Real>::epsilon(); }
 
   // Factors and values of the basis as it is now. False if it is singular.
@@ -82,7 +83,7 @@ struct Walk {
 
   // The direction of `entering`, from fresh factors where the old ones have lost digits.
   bool find_direction() {
-    const Real accepted = Real(64) * round_off();
+    const Real accepted = Real(64) * round_off();  // two digits less than fresh factors leave
     if (basis.num_exchanges() >= max_exchanges && basis.num_exchanges() > 0 && !refresh()) return false;
     if (basis.direction(entering, y) <= accepted || basis.num_exchanges() == 0) return true;
     if (!refresh()) return false;
@@ -199,20 +200,9 @@ void run_lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings, Lc
     LcpWorkspace::Buffers& buffers = workspace.buffers();
     status = walk(problem, settings, workspace, buffers.lu_basis, buffers.values, buffers.step);
   }
-  result.status = status == LcpStatus::solved ? LcpStatus::numerical : status;
-  if (result.residual <= settings.accepted_residual) {
-    result.status = LcpStatus::solved;
-    result.certificate.clear();
-  }
+  conclude(status, settings.accepted_residual, result);
 }
 
-LcpResult lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings) {
-  validate(problem);
-  validate(settings);
-  require_start_basis(settings.start_basis, problem.size());
-  LcpWorkspace workspace;
-  solve_prepared(problem, settings, workspace, run_lemke_lu);
-  return std::move(workspace.result);
-}
+LcpResult lemke_lu(const LcpProblem& problem, const LemkeLuSettings& settings) { return solve_lcp(problem, settings); }
 
 }  // namespace tumble

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace tumble {
 namespace {
@@ -87,16 +87,9 @@ void run_murty(const LcpProblem& problem, const MurtySettings& settings, LcpWork
   const LcpStatus status = run_pivots(problem, max_pivots, workspace);
   unscale(buffers.scaled, buffers.z_scaled, buffers.z);
   judge_candidate(problem, workspace);
-  result.status = status == LcpStatus::solved ? LcpStatus::numerical : status;
-  if (result.residual <= settings.accepted_residual) result.status = LcpStatus::solved;
+  conclude(status, settings.accepted_residual, result);
 }
 
-LcpResult murty(const LcpProblem& problem, const MurtySettings& settings) {
-  validate(problem);
-  validate(settings);
-  LcpWorkspace workspace;
-  solve_prepared(problem, settings, workspace, run_murty);
-  return std::move(workspace.result);
-}
+LcpResult murty(const LcpProblem& problem, const MurtySettings& settings) { return solve_lcp(problem, settings); }
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace tumble {
 namespace {
@@ -119,6 +120,8 @@ class Search {
         for (std::size_t j = 0; j < n; ++j) entries[i * n + j] += row[i] * row[j];
       }
     }
+    // Large far away, so that a singular Jacobian leads downhill, and small near the solution, so that steps are
+    // Newton's.
     const double nu = std::min(1e-2, std::sqrt(merit_));
     buffers_.right.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -170,12 +173,6 @@ void run_newton(const LcpProblem& problem, const NewtonSettings& settings, LcpWo
   workspace.result.status = Search(problem, workspace).run(settings);
 }
 
-LcpResult newton(const LcpProblem& problem, const NewtonSettings& settings) {
-  validate(problem);
-  validate(settings);
-  LcpWorkspace workspace;
-  solve_prepared(problem, settings, workspace, run_newton);
-  return std::move(workspace.result);
-}
+LcpResult newton(const LcpProblem& problem, const NewtonSettings& settings) { return solve_lcp(problem, settings); }
 
 }  // namespace tumble

@@ -7,6 +7,7 @@
 #include "tumble/lcp/one_contact.hpp"
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace tumble {
 namespace {
@@ -168,13 +169,6 @@ void run_nlgs(const LcpProblem& problem, const NlgsSettings& settings, LcpWorksp
   result.status = result.residual <= settings.accepted_residual ? LcpStatus::solved : LcpStatus::iteration_limit;
 }
 
-LcpResult nlgs(const LcpProblem& problem, const NlgsSettings& settings) {
-  validate(problem);
-  validate(settings);
-  require_start_z(settings.start_z, problem.size());
-  LcpWorkspace workspace;
-  solve_unscaled(problem, settings, workspace, run_nlgs);
-  return std::move(workspace.result);
-}
+LcpResult nlgs(const LcpProblem& problem, const NlgsSettings& settings) { return solve_lcp(problem, settings); }
 
 }  // namespace tumble

@@ -1,10 +1,10 @@
 #include "tumble/lcp/pgs.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace tumble {
 namespace {
@@ -53,13 +53,6 @@ void run_pgs(const LcpProblem& problem, const PgsSettings& settings, LcpWorkspac
   if (result.residual <= settings.accepted_residual) result.status = LcpStatus::solved;
 }
 
-LcpResult pgs(const LcpProblem& problem, const PgsSettings& settings) {
-  validate(problem);
-  validate(settings);
-  require_start_z(settings.start_z, problem.size());
-  LcpWorkspace workspace;
-  solve_unscaled(problem, settings, workspace, run_pgs);
-  return std::move(workspace.result);
-}
+LcpResult pgs(const LcpProblem& problem, const PgsSettings& settings) { return solve_lcp(problem, settings); }
 
 }  // namespace tumble

@@ -99,15 +99,6 @@ class Refinement {
     if (c.body_b >= 0) visit(static_cast<Index>(c.body_b), c.normal_b, c.tangent_b);
   }
 
-  std::array<double, 2> velocity_at(const BodyContact& c, const std::vector<Vector3>& velocity) const {
-    std::array<double, 2> u = {c.offset, 0.0};
-    for_each_body(c, [&](Index body, const Vector3& normal, const Vector3& tangent) {
-      u[0] += dot(normal, velocity[body]);
-      u[1] += dot(tangent, velocity[body]);
-    });
-    return u;
-  }
-
   void find_speed() {
     for (const BodyContact& c : system_.contacts) {
       const auto [u_n, u_t] = velocity_at(c, system_.velocity);

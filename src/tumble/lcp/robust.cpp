@@ -12,6 +12,7 @@
 #include "tumble/lcp/infeasibility.hpp"
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace tumble {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 constexpr std::size_t k_max_tableau_size = 100;
 constexpr std::size_t k_max_quad_size = 100;
 constexpr std::size_t k_max_quad_correction_size = 600;
-constexpr std::size_t k_max_exact_rung_size = 24;
+constexpr std::size_t k_max_exact_rung_size = 24;      // above, the integers grow too long for a step's time
 constexpr std::size_t k_max_infeasibility_size = 200;  // above, the search takes minutes
 
 // One step of the ladder: improves workspace.result, or leaves it.
@@ -30,9 +31,7 @@ using Rung = void (*)(const LcpProblem&, const RobustSettings&, LcpWorkspace&);
 // Judges buffers.z.
 void offer(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
   judge_candidate(problem, workspace);
-  if (!(workspace.result.residual <= settings.accepted_residual)) return;
-  workspace.result.status = LcpStatus::solved;
-  workspace.result.certificate.clear();
+  conclude(workspace.result.status, settings.accepted_residual, workspace.result);
 }
 
 // Rungs for contacts need no scaling: units of contacts cannot mislead them.
@@ -57,6 +56,7 @@ void try_closed_form(const LcpProblem& problem, const RobustSettings& settings, 
 
 constexpr int k_max_newton_rounds = 30;  // where it gets there, it does so in a few
 constexpr int k_max_single_changes = 30;
+constexpr int k_max_path_steps = 20;  // and 2 per contact
 
 enum class ModeSearch { newton, one_by_one, path };
 
@@ -64,12 +64,12 @@ void run_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWor
   LcpWorkspace::Buffers& buffers = workspace.buffers();
   LcpResult& result = workspace.result;
   const auto count = [&](bool is_done) {
-    result.pivots += buffers.modes.rounds() - 1;
-    result.refactorisations += buffers.modes.rounds();
+    result.pivots += buffers.modes.factorisations() - 1;
+    result.refactorisations += buffers.modes.factorisations();
     return is_done;
   };
   const int m = static_cast<int>(buffers.modes.modes.size());
-  if (search == ModeSearch::path && !count(buffers.modes.follow(buffers.contacts, 20 + 2 * m))) return;
+  if (search == ModeSearch::path && !count(buffers.modes.follow(buffers.contacts, k_max_path_steps + 2 * m))) return;
   const bool is_one_by_one = search == ModeSearch::one_by_one;
   const auto change = is_one_by_one ? ContactModes::Change::worst : ContactModes::Change::all;
   const int max_rounds = is_one_by_one ? k_max_single_changes : k_max_newton_rounds;
@@ -89,6 +89,7 @@ void try_modes(const LcpProblem& problem, const RobustSettings& settings, LcpWor
   }
   workspace.result.rung = LcpRung::contact_modes;
   buffers.modes.start(buffers.contacts);
+  // From cheap to dear, each with a better guess: the sweeps add up.
   struct Attempt {
     int num_sweeps;
     ModeSearch search;
@@ -144,7 +145,8 @@ void try_infeasible(const LcpProblem& problem, const RobustSettings&, LcpWorkspa
 }
 
 // Lemke with 113 bits, for M as it is or with a tiny diagonal: contacts that depend on each other to the last bits
-// share their load once they have one. Large problems start from the last basis met, if it is nearly right.
+// share their load once they have one, of a size at which 113 bits keep the digits that doubles would lose. Large
+// problems start from the last basis met, if it is nearly right.
 void run_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace,
               std::initializer_list<double> ridges) {
   constexpr double nearly_right = 1e-3;
@@ -271,13 +273,6 @@ void run_robust(const LcpProblem& problem, const RobustSettings& settings, LcpWo
   climb(k_ladder, problem, settings, workspace);
 }
 
-LcpResult robust(const LcpProblem& problem, const RobustSettings& settings) {
-  validate(problem);
-  validate(settings);
-  require_start_basis(settings.start_basis, problem.size());
-  LcpWorkspace workspace;
-  run_robust(problem, settings, workspace);
-  return std::move(workspace.result);
-}
+LcpResult robust(const LcpProblem& problem, const RobustSettings& settings) { return solve_lcp(problem, settings); }
 
 }  // namespace tumble

@@ -26,8 +26,10 @@ void validate(const LcpSettings& settings);
 LcpResult solve_lcp(const LcpProblem& problem, const LcpSettings& settings = RobustSettings{});
 
 // The same into workspace.result, which is returned, for loops that solve again and again: once the workspace has met a
-// problem of this size, no method but `enumerate` allocates memory (but for the rare problems that `robust` solves with
-// 113 bits). A problem that `validate` would refuse gets the status bad_input; the settings must be valid.
+// problem of this size, memory is allocated only by `enumerate`, by `lemke_lu` where its factors are sparse (large
+// problems), and by what `robust` tries last: those two, 113 bits, exact arithmetic and the search for a proof. A
+// problem that `validate` would refuse, that does not fit the start of the settings, or that is too large for
+// `enumerate` gets the status bad_input. Throws std::invalid_argument for a setting outside its range.
 const LcpResult& solve_lcp(const LcpProblem& problem, const LcpSettings& settings, LcpWorkspace& workspace);
 
 }  // namespace tumble

@@ -12,13 +12,6 @@ namespace {
 
 using Index = std::size_t;
 
-double tangential_velocity(const BodyContact& contact, const std::vector<Vector3>& velocity) {
-  double u_t = 0.0;
-  if (contact.body_a >= 0) u_t += dot(contact.tangent_a, velocity[static_cast<Index>(contact.body_a)]);
-  if (contact.body_b >= 0) u_t += dot(contact.tangent_b, velocity[static_cast<Index>(contact.body_b)]);
-  return u_t;
-}
-
 // Impulses that satisfy the contacts better than A = J M^-1 J^T, which was rounded, can tell. The laws hold for them by
 // the Jacobians, so they are a solution even if the LCP of the rounded A was taken for infeasible.
 void refine(const ContactSystem& system, const LcpProblem& problem, ContactSolution& solution) {
@@ -47,7 +40,7 @@ ContactSolution read_solution(const ContactSystem& system, const LcpProblem& pro
   const std::vector<double>& z = solution.result.z;
   for (Index i = 0; i < count; ++i) {
     const double normal = z[i], slip = z[3 * count + i];
-    const double u_t = tangential_velocity(system.contacts[i], solution.velocity);
+    const double u_t = velocity_at(system.contacts[i], solution.velocity)[1];
     solution.normal_impulse.push_back(normal);
     solution.friction_impulse.push_back(z[count + 2 * i] - z[count + 2 * i + 1]);
     solution.slip_speed.push_back(slip);
