@@ -200,7 +200,7 @@ TEST(Exact, DoubleDescriptionAgreesWithTryingEveryBasis) {
       }
     }
     num_solved += set.status == LcpStatus::solved;
-    const ExactFeasibility feasibility = find_infeasibility(problem);
+    const ExactFeasibility feasibility = exact_feasibility(problem);
     num_infeasible += feasibility.status == LcpStatus::infeasible;
     ASSERT_EQ(set.status == LcpStatus::infeasible, feasibility.status == LcpStatus::infeasible);
     if (feasibility.status == LcpStatus::infeasible) {

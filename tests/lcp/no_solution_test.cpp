@@ -64,6 +64,27 @@ TEST(NoSolution, OfEqualRowsIsSeenByEveryMethod) {
   EXPECT_GT(num_unsolvable, 300);
 }
 
+// P-matrices that are nearly singular, up to the last bit and past it: their one solution may be too large to be found
+// in doubles, but it is there.
+TEST(NoSolution, IsNotProvedWhereRoundingAloneHidesOne) {
+  problems::Random random(64);
+  int num_found = 0;
+  for (int exponent = 0; exponent <= 60; ++exponent) {
+    for (int i = 0; i < 40; ++i) {
+      const double a = random.uniform(0.1, 10.0), b = random.uniform(0.1, 10.0), c = random.uniform(0.1, 10.0);
+      const LcpProblem problem{{a, -b, -c * a, c * b * (1.0 + std::ldexp(1.0, -exponent))},
+                               {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)},
+                               {}};
+      const LcpStatus found = solve_lcp(problem).status, truth = solve_exactly(as_exact(problem)).status;
+      if (truth != LcpStatus::solved) continue;
+      EXPECT_TRUE(found == LcpStatus::solved || found == LcpStatus::numerical)
+          << to_string(found) << ", 2^-" << exponent << ", number " << i;
+      num_found += found == LcpStatus::solved;
+    }
+  }
+  EXPECT_GT(num_found, 1000);
+}
+
 // A body between two walls that are too near: whatever moves it out of one moves it into the other.
 TEST(NoSolution, OfAJammedBodyIsProved) {
   problems::Random random(63);

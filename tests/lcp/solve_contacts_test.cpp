@@ -24,7 +24,7 @@ ContactSystem heavy_on_light(double w) {
 }
 
 // The lower contact bears 1 + 1.1 / w, the upper one 1.1 / w: to the last digits, where M holds the fewer of them the
-// heavier the body on top is. From 1e13 on the LCP of the rounded M has no solution.
+// heavier the body on top is, so that the LCP of the rounded M has another solution.
 TEST(SolveContacts, KeepsTheDigitsOfAHeavyBodyOnALightOne) {
   double worst_of_lcp = 0.0;
   for (double w = 1.0; w > 1e-20; w *= 0.7) {

@@ -20,7 +20,7 @@ namespace tumble {
 namespace {
 
 constexpr double k_rank_tolerance = 1e-11;      // pivots of a scaled matrix below this count as 0
-constexpr double k_clear_rank = 1e-9;           // a rank decided by smaller pivots does not prove anything
+constexpr double k_clear_rank = 1e-9;           // a rank decided by smaller pivots, or none, does not prove anything
 constexpr double k_clear_inconsistency = 1e-9;  // a singular system off by more has no solution
 constexpr double k_clear_failure = 1e-6;        // a basis that fails by less does not prove anything
 
@@ -156,7 +156,7 @@ class Enumeration {
   void try_basis(unsigned basis) {
     const Members columns(basis);
     const Elimination elimination = system(columns, columns);
-    if (elimination.pivot_ratio() < k_clear_rank) is_clear_ = false;
+    if (elimination.rank() < columns.count || elimination.pivot_ratio() < k_clear_rank) is_clear_ = false;
     Vector z_B;
     elimination.solve(z_B.data());
     if (elimination.rank() == columns.count) return keep_if_solution(basis, columns, z_B);

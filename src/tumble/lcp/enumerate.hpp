@@ -26,8 +26,8 @@ inline constexpr std::size_t k_max_enumerate_size = 12;
 std::vector<LcpResult> enumerate_solutions(const LcpProblem& problem, const EnumerateSettings& settings = {});
 
 // The first of `enumerate_solutions`; `pivots` counts the bases tried. Status: solved; no_solution_proved if every
-// basis fails by far more than round-off, or, where one does not, if exact arithmetic finds none either; numerical if
-// the numbers are too long for that, or the exact solution is none in double.
+// basis is regular and fails by far more than round-off, or, where one is not or does not, if exact arithmetic finds
+// none either; numerical if the numbers are too long for that, or the exact solution is none in double.
 LcpResult enumerate(const LcpProblem& problem, const EnumerateSettings& settings = {});
 
 // The whole solution set: a union of polyhedra, `faces`, each the hull of its vertices plus the cone of its rays.

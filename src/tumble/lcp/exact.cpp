@@ -186,7 +186,7 @@ bool proves_infeasible(const LcpProblem& problem, std::span<const double> y) {
   return proves_infeasible(rationals_of(problem), y_rational);
 }
 
-ExactFeasibility find_infeasibility(const ExactLcp& problem) {
+ExactFeasibility exact_feasibility(const ExactLcp& problem) {
   const RationalLcp rationals = rationals_of(problem);
   const IntegerLcp integers = prepare(rationals, k_max_exact_size);
   Phase1 phase1 = find_feasible_point(integers.n, integers.n, integers.entries);

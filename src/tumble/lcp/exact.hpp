@@ -49,7 +49,7 @@ struct ExactResult {
 
 // The z of one complementary basis: M_BB z_B = -q_B, z = 0 elsewhere. Status: solved if it solves the problem, else
 // no_solution_proved: none with this basis does. If M_BB is regular, z and w are those of the basis either way. If it
-// is singular, some solution if there is one with this basis, else empty. iteration_limit: see `find_infeasibility`.
+// is singular, some solution if there is one with this basis, else empty. iteration_limit: see `exact_feasibility`.
 ExactResult exact_solution(const ExactLcp& problem, std::span<const std::uint8_t> basis);
 
 // Lemke's method with cover e and a lexicographic rule, which excludes cycles [Cottle 1992, algorithm 4.4.1,
@@ -99,6 +99,6 @@ struct ExactFeasibility {
 
 // Decides whether any z >= 0 has w >= 0, by the first phase of the simplex method with Bland's rule [Bland 1977]. It
 // always ends, but after exponentially many pivots in contrived cases: iteration_limit after 10 000.
-ExactFeasibility find_infeasibility(const ExactLcp& problem);
+ExactFeasibility exact_feasibility(const ExactLcp& problem);
 
 }  // namespace tumble

@@ -13,7 +13,7 @@ namespace {
 // A negative value counts if cutting it off would be more than round-off in some row, beside the terms summed there.
 constexpr double k_round_off = 1e-13;
 
-// w of buffers.z_scaled, and the size of the terms in each row, as `residual` defines it.
+// w of buffers.z_scaled, and the size of the terms in each row.
 void find_w(const LcpProblem& problem, LcpWorkspace::Buffers& buffers) {
   const ScaledProblem& scaled = buffers.scaled;
   const std::size_t n = problem.size();

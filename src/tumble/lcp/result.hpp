@@ -15,7 +15,7 @@ inline constexpr double k_largest_accepted_residual = 1e-2;
 
 enum class LcpStatus : std::uint8_t {
   solved,              // z is a solution; its residual is within the accepted bound
-  no_solution_proved,  // feasible or not, every complementary basis was tried and failed clearly
+  no_solution_proved,  // feasible or not, every complementary basis was tried and none is a solution
   ray_unproven,        // Lemke ended on a ray: no solution found, but none excluded either
   iteration_limit,     // the allowed number of pivots or sweeps was used up
   numerical,           // the method ended regularly, but the residual is above the accepted bound
@@ -68,7 +68,8 @@ struct LcpResult {
   int pivots = 0;                   // pivots made, bases tried, or sweeps
   int refactorisations = 0;         // LU factorisations of a basis
   LcpRung rung = LcpRung::none;     // the method that found z, or the last one tried
-  std::vector<std::uint8_t> basis;  // n; 1 where z_i is basic (w_i = 0), 0 where w_i is (z_i = 0)
+  std::vector<std::uint8_t> basis;  // n; 1 where z_i is basic (w_i = 0), 0 where w_i is (z_i = 0); that of z if solved,
+                                    // else the last one tried
   std::vector<double> certificate;  // infeasible: y (n) with M'y <= 0, y >= 0, q'y < 0; ray_unproven: the direction of
                                     // the ray in z (n); else empty
 };

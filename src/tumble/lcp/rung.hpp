@@ -35,7 +35,7 @@ void conclude(LcpStatus status, double accepted_residual, LcpResult& result);
 // to `tolerance` as in `DenseLu::factor`.
 bool solve_basis(const std::vector<std::uint8_t>& basis, LcpWorkspace::Buffers& buffers, double tolerance = 0.0);
 
-// The tolerance for methods that go on from z: a pivot below is round-off, and z of any size would pass for a solution.
+// The tolerance for methods that go on from z: a pivot below is round-off, and so is the z divided by it.
 inline constexpr double k_singular = 1e-14;
 
 // Lemke's method on a prepared problem. Improves workspace.result, adds to its pivots, sets its status.
