@@ -308,7 +308,7 @@ def default_settings(method: str = "robust") -> dict[str, Any]:
     Examples
     --------
     >>> default_settings("lemke")
-    {'max_pivots': 0, 'pivot_tolerance': 1e-08, 'accepted_residual': 1e-08}
+    {'max_pivots': 0, 'pivot_tolerance': 1e-08, 'accepted_residual': 1e-10}
     """
     return _core.settings_of(method)
 
