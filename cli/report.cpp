@@ -3,14 +3,12 @@
 #include <array>
 #include <numbers>
 
+#include "json.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace tumble::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 4> k_corner_names = {"(-,-)", "(+,-)", "(+,+)", "(-,+)"};
 
@@ -120,7 +118,7 @@ std::string drop_json(const drop::Record& record, const std::vector<std::string>
                          {"q", json_of(trajectory.q_at(last))},
                          {"v", json_of(trajectory.v_at(last))}}},
                        {"files", files}};
-  return report.dump(2) + "\n";
+  return to_text(report);
 }
 
 }  // namespace tumble::cli

@@ -71,6 +71,16 @@ def test_quiet_prints_nothing(tmp_path: Path) -> None:
     assert (tmp_path / "a.csv").exists()
 
 
+def test_json_survives_a_file_name_that_is_not_utf8(tmp_path: Path) -> None:
+    csv_name, text_name = os.fsdecode(b"a\xff.csv"), os.fsdecode(b"a\xff.txt")
+    dropped = json.loads(succeed("drop", "--json", "-o", csv_name, cwd=tmp_path))
+    rendered = json.loads(succeed("render", "--json", csv_name, "-o", csv_name, "--force", cwd=tmp_path))
+    assert dropped["files"] == rendered["files"] == ["a\N{REPLACEMENT CHARACTER}.csv"]
+    (tmp_path / text_name).write_text("M\n1\nq\n-1\n")
+    reports = json.loads(succeed("lcp", "--json", text_name, text_name, cwd=tmp_path))
+    assert [report["file"] for report in reports] == ["a\N{REPLACEMENT CHARACTER}.txt"] * 2
+
+
 def test_angles_are_radians_or_degrees(tmp_path: Path) -> None:
     by_degrees = json.loads(succeed("drop", "--json", "--q0", "0,1.5,30deg", "--v0", "0,0,90deg", cwd=tmp_path))
     by_radians = json.loads(succeed("drop", "--json", "--q0=0,1.5,0.5235987755982988", "--v0=0,0,1.5707963267948966", cwd=tmp_path))
