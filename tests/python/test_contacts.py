@@ -180,6 +180,16 @@ def test_a_box_has_one_motion_and_many_impulses() -> None:
     assert lcp.solve_contacts(**BOX).motions is None
 
 
+def test_motions_of_an_lcp_are_in_the_order_of_its_contacts() -> None:
+    for friction in ([0, 0.5], [0.5, 0], [0, 0]):
+        system = {**BOX, "J_t": [[1, 0, 0.25], [-1, 0, -0.25]], "friction": friction}
+        box = lcp.solve_contacts(**system, motions=True).motions
+        same = lcp.contact_motions(*lcp.contact_problem(**system))
+        assert box is not None and len(box.motions) == len(same.motions) > 0
+        for one, other in zip(box.motions, same.motions):
+            assert one.modes == other.modes and np.array_equal(one.velocities, other.velocities)
+
+
 def test_a_wedge_has_a_continuum_of_motions() -> None:
     opposed = {"J_n": [[1, 0, 0], [-1, 0, 0]], "J_t": [[0, -1, 0], [0, 1, 0]], "inverse_mass": [1, 1, 1]}
     wedge = lcp.solve_contacts(**opposed, velocity=[0, -1, 0], friction=0.5, motions=True).motions

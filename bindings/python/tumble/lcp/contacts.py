@@ -304,7 +304,8 @@ def contact_motions(M: ArrayLike, q: ArrayLike, row_sizes: ArrayLike | None = No
     -------
     Motions
         Contacts in the order of their cone rows, +t along the first friction unknown, followed by normals without
-        friction.
+        friction unknowns. Where friction is 0, cones take the normals that no cone names in their order, as in
+        `contact_problem`.
 
     Raises
     ------
