@@ -226,7 +226,14 @@ py::list all_solutions(const py::handle& M, const py::handle& q, double accepted
   return solutions;
 }
 
-// The fields of tumble.lcp.ExactResult, numbers as text. `basis` is None for Lemke's method.
+// The fields of tumble.lcp.ExactResult, numbers as text.
+py::dict as_dict(const ExactResult& result) {
+  return py::dict("status"_a = py::str(to_string(result.status)), "z"_a = as_list(result.z), "w"_a = as_list(result.w),
+                  "basis"_a = as_bools(result.basis), "certificate"_a = as_list(result.certificate),
+                  "pivots"_a = result.pivots);
+}
+
+// `basis` is None for one solution of any.
 py::dict exact(std::vector<std::string> M, std::vector<std::string> q, const py::handle& basis) {
   const ExactLcp problem{std::move(M), std::move(q)};
   std::vector<std::uint8_t> start;
@@ -241,9 +248,23 @@ py::dict exact(std::vector<std::string> M, std::vector<std::string> q, const py:
     const py::gil_scoped_release without_gil;
     result = basis.is_none() ? solve_exactly(problem) : exact_solution(problem, start);
   }
-  return py::dict("status"_a = py::str(to_string(result.status)), "z"_a = as_list(result.z), "w"_a = as_list(result.w),
-                  "basis"_a = as_bools(result.basis), "certificate"_a = as_list(result.certificate),
-                  "pivots"_a = result.pivots);
+  return as_dict(result);
+}
+
+// The fields of tumble.lcp.ExactSolutionSet; a face as (vertices, rays).
+py::dict solution_set(std::vector<std::string> M, std::vector<std::string> q) {
+  const ExactLcp problem{std::move(M), std::move(q)};
+  ExactSolutionSet set;
+  {
+    const py::gil_scoped_release without_gil;
+    set = exact_solution_set(problem);
+  }
+  py::list vertices, rays, faces;
+  for (const ExactResult& vertex : set.vertices) vertices.append(as_dict(vertex));
+  for (const std::vector<std::string>& ray : set.rays) rays.append(as_list(ray));
+  for (const SolutionFace& face : set.faces) faces.append(py::make_tuple(face.vertices, face.rays));
+  return py::dict("status"_a = py::str(to_string(set.status)), "vertices"_a = vertices, "rays"_a = rays,
+                  "faces"_a = faces, "certificate"_a = as_list(set.certificate));
 }
 
 // (negative_w, negative_z, complementarity)
@@ -340,6 +361,7 @@ void bind_lcp(py::module_& module) {
              "settings"_a);
   module.def("all_solutions", &all_solutions, "M"_a, "q"_a, "accepted_residual"_a);
   module.def("exact", &exact, "M"_a, "q"_a, "basis"_a);
+  module.def("solution_set", &solution_set, "M"_a, "q"_a);
   module.def("residual", &residual_parts, "M"_a, "q"_a, "z"_a, "row_sizes"_a);
   module.def("parse_lcp", &parse_text, "text"_a, "name"_a);
   module.def("methods", &methods);

@@ -328,13 +328,34 @@ def test_exact_proves_that_there_is_no_solution() -> None:
         ([[1]], [np.inf], r"q\[0\]: must be a finite number, got inf"),
         ([[1]], [None], r"q\[0\]: must be a finite number, got None"),
         ([[1, 2]], [1, 2], r"M: must have shape \(2, 2\)"),
-        (["12", "34"], [1, 2], r"M: must have shape \(2, 2\)"),
-        (np.eye(41), np.ones(41), "40"),
+        (["12", "34"], [1, 2], r"M\[0\]: must be a list of numbers, got '12'"),
+        ([1, 2], [1, 2], r"M\[0\]: must be a list of numbers, got 1"),
+        (3, [1, 2], "M: must be a list of rows, got 3"),
+        ([[1]], 1, "q: must be a list of numbers, got 1"),
+        ([[1]], "1", "q: must be a list of numbers, got '1'"),
+        ([[1]], None, "q: must be a list of numbers, got None"),
+        (np.eye(41), np.ones(41), "q: exact arithmetic takes at most"),
     ],
 )
 def test_exact_names_what_is_no_number(M: object, q: object, message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        lcp.exact(M, q)  # type: ignore[arg-type]
+    for function in (lcp.exact, lcp.solution_set):
+        with pytest.raises(ValueError, match=message):
+            function(M, q)  # type: ignore[operator]
+
+
+def test_the_solution_set_is_exact() -> None:
+    points = lcp.solution_set([[-2, -1], [-1, -2]], [1, 1])
+    third, half = Fraction(1, 3), Fraction(1, 2)
+    assert [vertex.z for vertex in points.vertices] == [[0, 0], [half, 0], [0, half], [third, third]]
+    assert points.faces == [lcp.ExactFace([v], []) for v in (0, 2, 1, 3)] and points.rays == []  # 0 first in z_0
+    ray = lcp.solution_set([[0, 0], [0, 1]], ["0", "-1/3"])
+    assert ray.status == "solved" and [vertex.z for vertex in ray.vertices] == [[0, third]]
+    assert ray.rays == [[1, 0]] and ray.faces == [lcp.ExactFace([0], [0])] and ray.certificate is None
+    none = lcp.solution_set([[-1, 2], [-1, -1]], [1, -1])
+    y = none.certificate
+    assert none.status == "infeasible" and none.vertices == [] and y is not None and y[0] - y[1] < 0
+    with pytest.raises(ValueError, match="q: exact arithmetic takes at most 12 entries"):
+        lcp.solution_set(np.eye(13), np.ones(13))
 
 
 def test_exact_takes_a_basis_of_zeros_and_ones() -> None:
