@@ -281,6 +281,23 @@ def test_unknown_settings_are_type_errors_that_list_the_known() -> None:
         lcp.solve_batch([[1.0]], [[1.0]], method="lemke", start=[1])
 
 
+def test_results_compare_without_an_error() -> None:
+    M, q = [[2, 1], [1, 2]], [-5, -6]
+    system = ([[0, 1, 0]], [[1, 0, 0]], [1, 1, 1], [0, -1, 0], 0.5)
+    makers = (
+        lambda: lcp.solve(M, q),
+        lambda: lcp.solve_batch(M, [q]),
+        lambda: lcp.exact(M, q),
+        lambda: lcp.solution_set(M, q),
+        lambda: lcp.solve_contacts(*system),
+        lambda: lcp.solve_contacts(*system, motions=True).motions,
+        lambda: lcp.solve_one_contacts([1, 1], [0, 0], [1, 1], [-1, -1], [0, 0], [0.5, 0.5]),
+    )
+    for make in makers:
+        one = make()
+        assert one == one and one != make() and one in {one}
+
+
 def test_parse_reads_the_text_of_the_command_line() -> None:
     M, q = lcp.parse("M\n2 1 # a comment\n1 2\nq\n-5 -1/2\n")
     assert np.array_equal(M, [[2, 1], [1, 2]]) and np.array_equal(q, [-5, -0.5])

@@ -14,7 +14,7 @@ from tumble.lcp.solvers import STATUSES, Result, as_result, with_start
 MODES = np.array(_core.MODES)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Motion:
     """One motion of k contacts, the same for all solutions whose impulses move the bodies alike.
 
@@ -33,7 +33,7 @@ class Motion:
     velocities: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Motions:
     """All motions that contacts allow.
 
@@ -57,7 +57,7 @@ class Motions:
         return len(self.motions) == 1 and not self.has_between
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class OneContacts:
     """N contacts, each on its own; arrays of shape (N,).
 
@@ -81,7 +81,7 @@ class OneContacts:
     residual: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ContactResult:
     """The impulses of k contacts between b bodies, and the motion after them.
 

@@ -18,7 +18,7 @@ _Vector = Union[Sequence[_Number], NDArray[Any]]
 _Matrix = Union[Sequence[Sequence[_Number]], NDArray[Any]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ExactResult:
     """What rational arithmetic says of a problem: nothing is rounded.
 

@@ -33,7 +33,7 @@ class Residual:
         return max(self.negative_w, self.negative_z, self.complementarity)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Result:
     """What a solver returns.
 
@@ -77,7 +77,7 @@ class Result:
     certificate: NDArray[np.float64] | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BatchResult:
     """The results of N problems of size n; ``batch[i]`` is the `Result` of problem i.
 
