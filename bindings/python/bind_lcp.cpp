@@ -24,14 +24,6 @@ using namespace py::literals;
 
 namespace {
 
-// Booleans as zeros and ones, for `as_array`; anything else as it is.
-py::object without_bools(const py::handle& object) {
-  const auto array = py::array::ensure(object);
-  if (!array) PyErr_Clear();
-  if (!array || array.dtype().kind() != 'b') return py::reinterpret_borrow<py::object>(object);
-  return Array::ensure(array);
-}
-
 py::array_t<bool> as_bools(const std::vector<std::uint8_t>& basis) {
   py::array_t<bool> array(static_cast<py::ssize_t>(basis.size()));
   for (std::size_t i = 0; i < basis.size(); ++i) array.mutable_data()[i] = basis[i] != 0;
@@ -53,7 +45,7 @@ bool is_list(const LcpSettings& settings, const std::string& name) {
 
 SettingValue as_setting(const LcpSettings& settings, const std::string& name, const py::handle& value) {
   if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
-  if (is_list(settings, name)) return as_vector(as_array(without_bools(value), name.c_str(), {-1}));
+  if (is_list(settings, name)) return as_vector(as_array(without_bools(value, name.c_str()), name.c_str(), {-1}));
   return as_number(value, name.c_str());
 }
 
@@ -75,11 +67,9 @@ class PerProblem {
   PerProblem() = default;
 
   PerProblem(const py::handle& object, const char* name, py::ssize_t count, std::vector<py::ssize_t> shape) {
-    const auto any = py::array::ensure(object);
-    if (!any) PyErr_Clear();
     size_ = 1;
     for (const py::ssize_t length : shape) size_ *= length;
-    const bool is_shared = any && any.ndim() == static_cast<py::ssize_t>(shape.size());
+    const bool is_shared = num_dimensions(object, name) == static_cast<py::ssize_t>(shape.size());
     if (!is_shared) {
       stride_ = size_;
       shape.insert(shape.begin(), count);
@@ -185,8 +175,9 @@ py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle&
   const PerProblem sizes = row_sizes.is_none() ? PerProblem() : PerProblem(row_sizes, "row_sizes", count, {n});
   LcpSettings chosen = as_settings(method, settings);
   const std::string start_name = is_list(chosen, "start_z") ? "start_z" : "start_basis";
-  const PerProblem starts =
-      start.is_none() ? PerProblem() : PerProblem(without_bools(start), start_name.c_str(), count, {n});
+  const PerProblem starts = start.is_none()
+                                ? PerProblem()
+                                : PerProblem(without_bools(start, start_name.c_str()), start_name.c_str(), count, {n});
   if (!start.is_none()) set_setting(chosen, start_name, std::vector<double>());
   validate(chosen);
   const double wanted = as_number(threads, "threads");
@@ -238,7 +229,7 @@ py::dict exact(std::vector<std::string> M, std::vector<std::string> q, const py:
   const ExactLcp problem{std::move(M), std::move(q)};
   std::vector<std::uint8_t> start;
   if (!basis.is_none()) {
-    for (const double x : as_vector(as_array(without_bools(basis), "basis", {-1}))) {
+    for (const double x : as_vector(as_array(without_bools(basis, "basis"), "basis", {-1}))) {
       if (x != 0.0 && x != 1.0) throw std::invalid_argument(fmt::format("basis: must be zeros and ones, got {}", x));
       start.push_back(x != 0.0);
     }

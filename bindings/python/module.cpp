@@ -23,9 +23,17 @@ bool is_plain_array(const py::handle& object) {
   return Py_TYPE(object.ptr()) == py::detail::npy_api::get().PyArray_Type_;
 }
 
-// The numbers under a mask mean nothing, and no function here can leave them out.
-void refuse_mask(const py::handle& object, const char* name) {
+// The numbers under a mask mean nothing, and no function here can leave them out. numpy would take off the masks of
+// rows in a list without a word. `max_depth` of lists in lists: more is the shape of no argument, and a list may hold
+// itself.
+void refuse_mask(const py::handle& object, const char* name, int max_depth = 3) {
   static const py::object masked_array = py::module_::import("numpy.ma").attr("MaskedArray").cast<py::object>();
+  if (is_plain_array(object) || PyFloat_CheckExact(object.ptr()) || PyLong_CheckExact(object.ptr())) return;
+  if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object)) {
+    if (max_depth == 0) return;
+    for (const py::handle item : object) refuse_mask(item, name, max_depth - 1);
+    return;
+  }
   if (!py::isinstance(object, masked_array)) return;
   const auto masked = py::module_::import("numpy.ma").attr("count_masked")(object).cast<py::ssize_t>();
   if (masked == 0) return;
@@ -34,9 +42,10 @@ void refuse_mask(const py::handle& object, const char* name) {
 
 }  // namespace
 
-Array as_array(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape) {
+Array as_array(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape,
+               const std::string& shape_in_words) {
   Array array;
-  if (!is_plain_array(object)) refuse_mask(object, name);
+  refuse_mask(object, name);
   if (py::isinstance<Array>(object)) {  // float64 and contiguous: nothing to convert
     array = py::reinterpret_borrow<Array>(object);
   } else {
@@ -61,11 +70,27 @@ Array as_array(const py::handle& object, const char* name, const std::vector<py:
                          std::equal(shape.begin(), shape.end(), array.shape(),
                                     [](py::ssize_t wanted, py::ssize_t got) { return wanted < 0 || wanted == got; });
   if (!has_shape) {
-    throw std::invalid_argument(fmt::format("{}: must have shape {}, got {}", name,
-                                            shape_text(shape.data(), shape.size()),
-                                            shape_text(array.shape(), static_cast<std::size_t>(array.ndim()))));
+    throw std::invalid_argument(
+        fmt::format("{}: must have shape {}, got {}", name,
+                    shape_in_words.empty() ? shape_text(shape.data(), shape.size()) : shape_in_words,
+                    shape_text(array.shape(), static_cast<std::size_t>(array.ndim()))));
   }
   return array;
+}
+
+py::ssize_t num_dimensions(const py::handle& object, const char* name) {
+  refuse_mask(object, name);
+  const auto array = py::array::ensure(object);
+  if (!array) PyErr_Clear();
+  return array ? array.ndim() : -1;
+}
+
+py::object without_bools(const py::handle& object, const char* name) {
+  refuse_mask(object, name);
+  const auto array = py::array::ensure(object);
+  if (!array) PyErr_Clear();
+  if (!array || array.dtype().kind() != 'b') return py::reinterpret_borrow<py::object>(object);
+  return Array::ensure(array);
 }
 
 std::string short_repr(const py::handle& object) {

@@ -281,6 +281,24 @@ def test_unknown_settings_are_type_errors_that_list_the_known() -> None:
         lcp.solve_batch([[1.0]], [[1.0]], method="lemke", start=[1])
 
 
+def test_masks_are_refused_wherever_they_hide() -> None:
+    row, masked = np.ma.array([2.0, 1.0], mask=[False, False]), np.ma.array([1.0, 2.0], mask=[True, False])
+    lcp.solve([row, [1.0, 2.0]], [-5, -6])
+    for M in ([row, masked], (row, masked), [[2.0, 1.0], [np.ma.masked, 2.0]], np.ma.stack([row, masked])):
+        with pytest.raises(ValueError, match="^M: must have no masked entry, got 1$"):
+            lcp.solve(M, [-5, -6])
+        with pytest.raises(ValueError, match="^M: must have no masked entry, got 1$"):
+            lcp.solve_batch([M, M], [[-5, -6], [-5, -6]])
+        with pytest.raises(ValueError, match=r"^M\[1\]\[0\]: must be a finite number, got masked$"):
+            lcp.exact(M, [-5, -6])  # type: ignore[arg-type]
+    endless: list[object] = []
+    endless.append(endless)
+    with pytest.raises(ValueError, match="^M: must"):
+        lcp.solve(endless, [-5, -6])  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="^start_basis: must have no masked entry, got 1$"):
+        lcp.solve(np.eye(2), [-5, -6], start=np.ma.array([True, True], mask=[True, False]))
+
+
 def test_results_compare_without_an_error() -> None:
     M, q = [[2, 1], [1, 2]], [-5, -6]
     system = ([[0, 1, 0]], [[1, 0, 0]], [1, 1, 1], [0, -1, 0], 0.5)
