@@ -168,7 +168,7 @@ void in_parallel(std::size_t count, std::size_t num_threads, const MakeWork& mak
 
 py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle& method, const py::handle& row_sizes,
                      const py::handle& start, const py::handle& threads, const py::dict& settings) {
-  const Array vectors = as_array(q, "q", {-1, -1});
+  const Array vectors = as_array(q, "q", {-1, -1}, "(N, n)");
   const py::ssize_t count = vectors.shape(0), n = vectors.shape(1);
   if (n == 0) throw std::invalid_argument("q: must have at least 1 entry per problem, got 0");
   const PerProblem all_M(M, "M", count, {n, n}), all_q(vectors, "q", count, {n});

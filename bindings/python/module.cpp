@@ -40,6 +40,15 @@ void refuse_mask(const py::handle& object, const char* name, int max_depth = 3) 
   throw std::invalid_argument(fmt::format("{}: must have no masked entry, got {}", name, masked));
 }
 
+std::string dtype_text(const py::array& array) { return "dtype " + std::string(py::str(array.dtype())); }
+
+// numpy calls whatever it does not know an array of objects.
+std::string contents_text(const py::handle& object) {
+  const bool is_array =
+      py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object) || py::isinstance<py::array>(object);
+  return is_array ? "dtype object" : std::string(py::str(py::type::handle_of(object).attr("__name__")));
+}
+
 }  // namespace
 
 Array as_array(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape,
@@ -57,8 +66,8 @@ Array as_array(const py::handle& object, const char* name, const std::vector<py:
     const char kind = any.dtype().kind();
     const bool is_empty_list = any.size() == 0;
     if (kind != 'f' && kind != 'i' && kind != 'u' && !is_empty_list) {
-      throw std::invalid_argument(
-          fmt::format("{}: must be an array of real numbers, got dtype {}", name, std::string(py::str(any.dtype()))));
+      throw std::invalid_argument(fmt::format("{}: must be an array of real numbers, got {}", name,
+                                              kind == 'O' ? contents_text(object) : dtype_text(any)));
     }
     array = Array::ensure(any);
     if (!array) {

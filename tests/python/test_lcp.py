@@ -253,7 +253,7 @@ def test_any_size(n: int) -> None:
         (lambda: lcp.solve([[1j]], [1.0]), "M: must be an array of real numbers, got dtype complex128"),
         (lambda: lcp.solve([["a"]], [1.0]), "M: must be an array of real numbers"),
         (lambda: lcp.solve(None, [1.0]), "M: must be an array"),
-        (lambda: lcp.solve_batch(np.eye(2), [1.0, 1.0]), r"q: must have shape \(n, n\), got \(2,\)"),
+        (lambda: lcp.solve_batch(np.eye(2), [1.0, 1.0]), r"q: must have shape \(N, n\), got \(2,\)"),
         (lambda: lcp.solve_batch(np.eye(3), np.ones((5, 2))), r"M: must have shape \(2, 2\), got \(3, 3\)"),
         (lambda: lcp.solve_batch(np.ones((4, 2, 2)), np.ones((5, 2))), r"M: must have shape \(5, 2, 2\), got \(4, 2, 2\)"),
         (lambda: lcp.solve_batch(np.eye(2), np.ones((5, 2)), row_sizes=[1.0]), r"row_sizes: must have shape \(2,\), got \(1,\)"),
