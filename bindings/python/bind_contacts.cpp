@@ -133,7 +133,8 @@ py::dict motions_dict(const ContactMotions& found) {
 
 py::dict solve_contacts(const py::handle& J_n, const py::handle& J_t, const py::handle& inverse_mass,
                         const py::handle& velocity, const py::handle& friction, const py::handle& offset,
-                        const py::handle& method, bool wants_motions, const py::dict& settings) {
+                        const py::handle& method, const py::handle& motions_wanted, const py::dict& settings) {
+  const bool wants_motions = as_flag(motions_wanted, "motions");
   const ContactSystem system = as_system(J_n, J_t, inverse_mass, velocity, friction, offset);
   if (wants_motions && system.contacts.size() > k_max_contacts_of_motions) {
     throw std::invalid_argument(fmt::format("motions: must be False for more than {} contacts, got {}",
@@ -201,7 +202,7 @@ void bind_contacts(py::module_& module) {
   module.def("contact_problem", &contact_problem, "J_n"_a, "J_t"_a, "inverse_mass"_a, "velocity"_a, "friction"_a,
              "offset"_a);
   module.def("solve_contacts", &solve_contacts, "J_n"_a, "J_t"_a, "inverse_mass"_a, "velocity"_a, "friction"_a,
-             "offset"_a, "method"_a, "wants_motions"_a, "settings"_a);
+             "offset"_a, "method"_a, "motions"_a, "settings"_a);
   module.def("contact_motions", &contact_motions, "M"_a, "q"_a, "row_sizes"_a);
   module.def("solve_one_contacts", &solve_one_contacts, "A_nn"_a, "A_nt"_a, "A_tt"_a, "b_n"_a, "b_t"_a, "friction"_a);
   py::list modes;

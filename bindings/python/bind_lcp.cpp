@@ -209,9 +209,10 @@ py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle&
   return arrays.as_dict();
 }
 
-py::list all_solutions(const py::handle& M, const py::handle& q, double accepted_residual) {
+py::list all_solutions(const py::handle& M, const py::handle& q, const py::handle& accepted_residual) {
+  const EnumerateSettings settings{as_number(accepted_residual, "accepted_residual")};
   py::list solutions;
-  for (const LcpResult& result : enumerate_solutions(as_problem(M, q), {accepted_residual})) {
+  for (const LcpResult& result : enumerate_solutions(as_problem(M, q), settings)) {
     solutions.append(as_dict(result));
   }
   return solutions;
@@ -264,8 +265,8 @@ py::tuple residual_parts(const py::handle& M, const py::handle& q, const py::han
   return py::make_tuple(parts.negative_w, parts.negative_z, parts.complementarity);
 }
 
-py::tuple parse_text(const std::string& text, const std::string& name) {
-  const LcpProblem problem = parse_lcp(text, name);
+py::tuple parse_text(const py::handle& text, const py::handle& name) {
+  const LcpProblem problem = parse_lcp(as_text(text, "text"), as_text(name, "name"));
   const auto n = static_cast<py::ssize_t>(problem.size());
   return py::make_tuple(to_numpy(problem.M, n, n), to_numpy(problem.q));
 }

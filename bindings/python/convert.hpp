@@ -31,6 +31,10 @@ py::object without_bools(const py::handle& object, const char* name);
 // One line that names the field, where pybind11's own message for a wrong type fills a screen.
 double as_number(const py::handle& object, const char* field);
 
+// Raise TypeError for anything but a str, for what is neither a bool nor a number.
+std::string as_text(const py::handle& object, const char* field);
+bool as_flag(const py::handle& object, const char* field);
+
 // For messages: repr, cut off after 40 characters.
 std::string short_repr(const py::handle& object);
 

@@ -116,6 +116,19 @@ double as_number(const py::handle& object, const char* field) {
   return value;
 }
 
+std::string as_text(const py::handle& object, const char* field) {
+  if (py::isinstance<py::str>(object)) return py::cast<std::string>(object);
+  throw py::type_error(fmt::format("{}: must be text, got {}", field, short_repr(object)));
+}
+
+bool as_flag(const py::handle& object, const char* field) {
+  try {
+    return py::cast<bool>(object);
+  } catch (const py::cast_error&) {
+    throw py::type_error(fmt::format("{}: must be True or False, got {}", field, short_repr(object)));
+  }
+}
+
 Vector3 as_vector3(const py::handle& object, const char* name) {
   const Array array = as_array(object, name, {3});
   const double* data = array.data();

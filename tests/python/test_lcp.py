@@ -316,6 +316,28 @@ def test_results_compare_without_an_error() -> None:
         assert one == one and one != make() and one in {one}
 
 
+@pytest.mark.parametrize(
+    ("call", "error", "message"),
+    [
+        (lambda: lcp.all_solutions([[1]], [1], "x"), ValueError, "accepted_residual: must be a number, got 'x'"),
+        (lambda: lcp.all_solutions([[1]], [1], None), ValueError, "accepted_residual: must be a number, got None"),
+        (lambda: lcp.solve_batch([[1]], [[1]], threads="x"), ValueError, "threads: must be a number, got 'x'"),
+        (lambda: lcp.solve_batch([[1]], [[1]], threads=None), ValueError, "threads: must be a number, got None"),
+        (lambda: lcp.parse(None), TypeError, "text: must be text, got None"),
+        (lambda: lcp.parse("", name=3), TypeError, "name: must be text, got 3"),
+        (
+            lambda: lcp.solve_contacts([[0, 1, 0]], [[1, 0, 0]], [1, 1, 1], [0, -1, 0], 0.5, motions="all"),
+            TypeError,
+            "motions: must be True or False, got 'all'",
+        ),
+    ],
+)
+def test_a_wrong_type_is_told_in_one_line(call, error: type[Exception], message: str) -> None:
+    with pytest.raises(error) as raised:
+        call()
+    assert str(raised.value) == message
+
+
 def test_parse_reads_the_text_of_the_command_line() -> None:
     M, q = lcp.parse("M\n2 1 # a comment\n1 2\nq\n-5 -1/2\n")
     assert np.array_equal(M, [[2, 1], [1, 2]]) and np.array_equal(q, [-5, -0.5])

@@ -84,7 +84,7 @@ def solve_contacts(
     friction: ArrayLike,
     offset: ArrayLike,
     method: str,
-    wants_motions: bool,
+    motions: bool,
     settings: dict[str, Any],
 ) -> dict[str, Any]: ...
 def solve_one_contacts(
