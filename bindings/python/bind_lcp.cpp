@@ -79,6 +79,7 @@ class PerProblem {
   }
 
   bool is_empty() const { return size_ == 0; }
+  bool is_shared() const { return !is_empty() && stride_ == 0; }
 
   void copy(std::size_t i, std::vector<double>& to) const {
     const double* from = begin_ + static_cast<py::ssize_t>(i) * stride_;
@@ -91,6 +92,20 @@ class PerProblem {
   py::ssize_t size_ = 0;
   py::ssize_t stride_ = 0;  // 0: shared
 };
+
+// Raises ValueError for what is wrong with all problems at once: a method that takes no n like theirs, shared row sizes
+// or a shared start. M = 1, q = 0 is solved by z = 0 at once; what refuses it would refuse every other.
+void require_usable(LcpSettings settings, py::ssize_t n, const PerProblem& sizes, const PerProblem& starts,
+                    const std::string& start_name) {
+  const auto size = static_cast<std::size_t>(n);
+  LcpProblem problem{std::vector<double>(size * size), std::vector<double>(size), {}};
+  for (std::size_t i = 0; i < size; ++i) problem.M[i * size + i] = 1.0;
+  if (sizes.is_shared()) sizes.copy(0, problem.row_sizes);
+  std::vector<double> start;
+  if (starts.is_shared()) starts.copy(0, start);
+  if (!start.empty()) set_by_name(settings, start_name, start);
+  solve_lcp(problem, settings);
+}
 
 // The results of a batch, one row for each problem; 0 where a result has no vector.
 struct BatchArrays {
@@ -180,6 +195,7 @@ py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle&
                                 : PerProblem(without_bools(start, start_name.c_str()), start_name.c_str(), count, {n});
   if (!start.is_none()) set_setting(chosen, start_name, std::vector<double>());
   validate(chosen);
+  require_usable(chosen, n, sizes, starts, start_name);
   const double wanted = as_number(threads, "threads");
   if (!(wanted >= 0.0 && wanted <= 1024.0 && wanted == std::trunc(wanted))) {
     throw std::invalid_argument(fmt::format("threads: must be a whole number in [0, 1024], got {}", wanted));

@@ -281,6 +281,26 @@ def test_unknown_settings_are_type_errors_that_list_the_known() -> None:
         lcp.solve_batch([[1.0]], [[1.0]], method="lemke", start=[1])
 
 
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ({"M": np.eye(13), "q": np.ones((3, 13)), "method": "enumerate"}, "q: enumeration takes at most 12 entries"),
+        ({"M": np.eye(2), "q": -np.ones((3, 2)), "row_sizes": [1, -1]}, r"row_sizes\[1\]: must be finite and >= 0, got -1"),
+        ({"M": np.eye(2), "q": -np.ones((3, 2)), "row_sizes": [1, np.nan]}, r"row_sizes\[1\]: must be finite and >= 0, got nan"),
+        ({"M": np.eye(2), "q": -np.ones((3, 2)), "method": "pgs", "start": [1, np.nan]}, "start_z"),
+        ({"M": np.eye(2), "q": -np.ones((3, 2)), "start": [0.5, 1]}, "start_basis: must be zeros and ones, got 0.5"),
+    ],
+)
+def test_what_is_wrong_with_every_problem_of_a_batch_is_refused(words: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        lcp.solve_batch(**words)  # type: ignore[arg-type]
+
+
+def test_row_sizes_of_its_own_touch_one_problem_only() -> None:
+    batch = lcp.solve_batch(np.eye(2), -np.ones((2, 2)), row_sizes=[[1, -1], [1, 1]])
+    assert batch.status.tolist() == ["bad_input", "solved"]
+
+
 def test_masks_are_refused_wherever_they_hide() -> None:
     row, masked = np.ma.array([2.0, 1.0], mask=[False, False]), np.ma.array([1.0, 2.0], mask=[True, False])
     lcp.solve([row, [1.0, 2.0]], [-5, -6])

@@ -260,7 +260,8 @@ def solve_batch(
     Raises
     ------
     ValueError
-        For an unknown method, shapes that do not fit, or a setting out of range.
+        For an unknown method, shapes that do not fit, a setting out of range, and for what no problem could be solved
+        with: negative shared row_sizes, or n > 12 with "enumerate".
     TypeError
         For a setting that the method does not have.
 
