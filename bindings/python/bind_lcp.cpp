@@ -36,14 +36,21 @@ py::list as_list(const std::vector<std::string>& words) {
   return list;
 }
 
-bool is_list(const LcpSettings& settings, const std::string& name) {
-  const std::vector<NamedSetting> all = named_settings(settings);
-  return std::any_of(all.begin(), all.end(), [&](const NamedSetting& setting) {
-    return setting.name == name && std::holds_alternative<std::vector<double>>(setting.value);
-  });
+// 0 for a setting that the method does not have: `set_setting` refuses it.
+SettingValue value_of(const LcpSettings& settings, const std::string& name) {
+  for (NamedSetting& setting : named_settings(settings)) {
+    if (setting.name == name) return std::move(setting.value);
+  }
+  return 0;
 }
 
+bool is_list(const LcpSettings& settings, const std::string& name) {
+  return std::holds_alternative<std::vector<double>>(value_of(settings, name));
+}
+
+// None leaves the setting as it is.
 SettingValue as_setting(const LcpSettings& settings, const std::string& name, const py::handle& value) {
+  if (value.is_none()) return value_of(settings, name);
   if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
   if (is_list(settings, name)) return as_vector(as_array(without_bools(value, name.c_str()), name.c_str(), {-1}));
   return as_number(value, name.c_str());

@@ -277,8 +277,33 @@ def test_unknown_settings_are_type_errors_that_list_the_known() -> None:
         lcp.solve([[1.0]], [1.0], tolerance=1.0)
     with pytest.raises(TypeError, match="max_pivots: .* has accepted_residual"):
         lcp.solve([[1.0]], [1.0], method="enumerate", max_pivots=3)
-    with pytest.raises(TypeError, match="start_basis: .* has max_pivots"):
-        lcp.solve_batch([[1.0]], [[1.0]], method="lemke", start=[1])
+
+
+def test_a_start_is_for_methods_that_take_one_and_is_given_once() -> None:
+    M, q = [[2, 1], [1, 2]], [-5, -6]
+    for call in (lambda **words: lcp.solve(M, q, **words), lambda **words: lcp.solve_batch(M, [q], **words)):
+        with pytest.raises(TypeError, match="^start: the method lemke takes none; those that do are robust, lemke_lu, pgs, nlgs$"):
+            call(method="lemke", start=[1, 1])
+        with pytest.raises(TypeError, match="^start, start_basis: say the same, give one of them$"):
+            call(start=[1, 1], start_basis=[1, 1])
+        with pytest.raises(TypeError, match="^start, start_z: say the same, give one of them$"):
+            call(method="pgs", start=[1, 1], start_z=[1, 1])
+        call(start=[1, 1], start_basis=None)
+        with pytest.raises(ValueError, match="^start_basis: must be an array of real numbers, got ContactResult$"):
+            call(start=lcp.solve_contacts([[0, 1, 0]], [[1, 0, 0]], [1, 1, 1], [0, -1, 0], 0.5))
+    with pytest.raises(ValueError, match=r"^start_basis: must have shape \(n,\), got \(1, 2\)$"):
+        lcp.solve(M, q, start=lcp.solve_batch(M, [q]))
+    shared = lcp.solve_batch(M, [q, q], start=lcp.solve(M, q))
+    assert shared.rung.tolist() == ["warm_start", "warm_start"]
+
+
+@pytest.mark.parametrize("method", lcp.METHODS)
+def test_default_settings_are_settings(method: str) -> None:
+    M, q, defaults = [[2, 1], [1, 2]], [-5, -6], lcp.default_settings(method)
+    assert np.array_equal(lcp.solve(M, q, method, **defaults).z, lcp.solve(M, q, method).z)
+    assert np.array_equal(lcp.solve_batch(M, [q], method, **defaults).z, lcp.solve_batch(M, [q], method).z)
+    with pytest.raises(TypeError, match="tolerance: is not a setting"):
+        lcp.solve(M, q, method, tolerance=None)
 
 
 @pytest.mark.parametrize(

@@ -131,18 +131,32 @@ def as_result(fields: dict[str, Any]) -> Result:
     return Result(parts=parts, **fields)
 
 
-def _start_name(method: str) -> str:
-    """The setting that takes a start: the methods that sweep begin at a z, the others at a basis."""
-    return "start_z" if "start_z" in default_settings(method) else "start_basis"
+def _start_name(method: str) -> str | None:
+    """The setting that takes a start, if any: the methods that sweep begin at a z, the others at a basis."""
+    known = default_settings(method)
+    return next((name for name in ("start_z", "start_basis") if name in known), None)
+
+
+def _named_start(
+    method: str, start: Result | BatchResult | ArrayLike, settings: dict[str, Any]
+) -> tuple[str, ArrayLike]:
+    """The name and value of the setting that `start` stands for."""
+    name = _start_name(method)
+    if name is None:
+        takers = ", ".join(other for other in METHODS if _start_name(other))
+        raise TypeError(f"start: the method {method} takes none; those that do are {takers}")
+    if settings.get(name) is not None:
+        raise TypeError(f"start, {name}: say the same, give one of them")
+    if isinstance(start, (Result, BatchResult)):
+        start = start.z if name == "start_z" else start.basis
+    return name, start
 
 
 def with_start(method: str, start: Result | ArrayLike | None, settings: dict[str, Any]) -> dict[str, Any]:
     if start is None:
         return settings
-    name = _start_name(method)
-    if isinstance(start, Result):
-        start = start.z if name == "start_z" else start.basis
-    return {**settings, name: start}
+    name, value = _named_start(method, start, settings)
+    return {**settings, name: value}
 
 
 def solve(
@@ -180,7 +194,7 @@ def solve(
         The result of a problem like this one, or its basis. It is tried first; if it still fits, no pivot is made.
         Methods with the setting start_basis take it, and those with start_z, which want a z in place of a basis.
     **settings
-        Settings of the method, by name; `default_settings` lists them.
+        Settings of the method, by name; `default_settings` lists them. None stands for the default.
 
     Returns
     -------
@@ -192,7 +206,7 @@ def solve(
     ValueError
         For an unknown method, a matrix that does not fit q, NaN, infinite or masked entries, or a setting out of range.
     TypeError
-        For a setting that the method does not have.
+        For a setting that the method does not have, a `start` included, and for two starts.
 
     References
     ----------
@@ -263,7 +277,7 @@ def solve_batch(
         For an unknown method, shapes that do not fit, a setting out of range, and for what no problem could be solved
         with: negative shared row_sizes, or n > 12 with "enumerate".
     TypeError
-        For a setting that the method does not have.
+        As `solve`.
 
     Examples
     --------
@@ -273,8 +287,8 @@ def solve_batch(
     >>> batch[0].z
     array([1.33333333, 2.33333333])
     """
-    if isinstance(start, BatchResult):
-        start = start.z if _start_name(method) == "start_z" else start.basis
+    if start is not None:
+        _, start = _named_start(method, start, settings)
     fields = _core.solve_batch(M, q, method, row_sizes, start, threads, settings)
     status, rung = STATUSES[fields.pop("status")], RUNGS[fields.pop("rung")]
     return BatchResult(status=status, rung=rung, **fields)
