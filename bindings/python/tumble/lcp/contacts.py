@@ -59,12 +59,12 @@ class Motions:
 
 @dataclass(frozen=True, eq=False)
 class OneContacts:
-    """N contacts, each on its own; arrays of shape (N,).
+    """N contacts, each on its own; arrays of shape (N,). Where the status is not "solved", the others mean nothing.
 
     Attributes
     ----------
     f_n, f_t : ndarray
-        Normal force or impulse, >= 0, and friction along +t.
+        Normal force or impulse, >= 0 where solved, and friction along +t.
     slip_speed : ndarray
         abs(u_t).
     mode, status : ndarray of str
@@ -85,10 +85,13 @@ class OneContacts:
 class ContactResult:
     """The impulses of k contacts between b bodies, and the motion after them.
 
+    Unless ``result.status`` is "solved", impulses, modes and velocities are those of the best candidate met and mean
+    nothing.
+
     Attributes
     ----------
     normal_impulse : ndarray, shape (k,)
-        [N s], >= 0.
+        [N s], >= 0 if solved.
     friction_impulse : ndarray, shape (k,)
         [N s], along +t.
     slip_speed : ndarray, shape (k,)
@@ -98,7 +101,7 @@ class ContactResult:
     velocity : ndarray, shape (3 b,)
         After the impulses, v + M^-1 J^T f: (vx, vy, omega) of each body [m/s, m/s, rad/s].
     result : Result
-        Of the LCP; check its `status`.
+        Of the LCP; check its `status` first.
     motions : Motions or None
         All motions, if asked for: ``motions.is_unique`` tells whether `velocity` is the only outcome.
     """

@@ -201,6 +201,10 @@ def solve(
     Result
         Check `status`: a problem without a solution is an outcome, not an error.
 
+    Notes
+    -----
+    One problem is solved in one go: Ctrl-C is noticed after it, also in `solve_contacts` and `all_solutions`.
+
     Raises
     ------
     ValueError
@@ -263,7 +267,8 @@ def solve_batch(
     start : BatchResult or array_like, shape (N, n) or (n,), optional
         Where to start, see `solve`.
     threads : int
-        0 takes one for each processor. The interpreter is free while they work.
+        0 takes one for each processor. The interpreter is free while they work. Ctrl-C is noticed every 64 problems, not
+        within one.
     **settings
         Settings of the method, by name; `default_settings` lists them.
 
