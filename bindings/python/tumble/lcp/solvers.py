@@ -246,7 +246,7 @@ def solve_batch(
     method: str = "robust",
     *,
     row_sizes: ArrayLike | None = None,
-    start: BatchResult | ArrayLike | None = None,
+    start: BatchResult | Result | ArrayLike | None = None,
     threads: int = 1,
     **settings: Any,
 ) -> BatchResult:
@@ -264,8 +264,8 @@ def solve_batch(
         One of `METHODS`.
     row_sizes : array_like, shape (N, n) or (n,), optional
         The typical size of each w_i, see `residual`.
-    start : BatchResult or array_like, shape (N, n) or (n,), optional
-        Where to start, see `solve`.
+    start : BatchResult, Result or array_like, shape (N, n) or (n,), optional
+        Where to start, see `solve`; of shape (n,) for all.
     threads : int
         0 takes one for each processor. The interpreter is free while they work. Ctrl-C is noticed every 64 problems, not
         within one.
