@@ -25,7 +25,7 @@ LcpSettings chosen_settings(const LcpOptions& options) {
   LcpSettings settings = lcp_method(!method.empty() ? method : *needed != '\0' ? needed : "robust").defaults;
   for (const std::string& word : options.settings) {
     const std::size_t equals = word.find('=');
-    if (equals == std::string::npos) {
+    if (equals == std::string::npos || equals == 0) {
       throw std::invalid_argument(fmt::format("--set: must be NAME=VALUE, got '{}'", word));
     }
     set_by_name(settings, word.substr(0, equals), word.substr(equals + 1));
@@ -115,6 +115,9 @@ int run_many(const LcpOptions& options, const LcpSettings& settings) {
 }  // namespace
 
 int run_lcp(const LcpOptions& options) {
+  if (std::count(options.files.begin(), options.files.end(), "-") > 1) {
+    throw std::invalid_argument("standard input can be read once only, got '-' several times");
+  }
   if (options.exact) return run_exact(options);
   const LcpSettings settings = chosen_settings(options);
   if (options.trace) return run_trace(options, std::get<LemkeSettings>(settings));

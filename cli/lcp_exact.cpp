@@ -1,9 +1,9 @@
 // `tumble lcp --exact`: rational arithmetic from the text to the answer.
 #include "commands.hpp"
+#include "json.hpp"
 #include "lcp_report.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "tumble/lcp/exact.hpp"
 #include "tumble/lcp/problem_text.hpp"
@@ -11,7 +11,6 @@
 namespace tumble::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Fractions = std::vector<std::string>;
 
 // Fractions, and the nearest doubles on a line of their own where they say more.
@@ -91,11 +90,11 @@ int run_lcp_exact(const std::string& text, const std::string& name, const LcpOpt
   if (options.all) {
     const ExactSolutionSet set = exact_solution_set(problem);
     status = set.status;
-    report = options.report.json ? json_of(problem, set).dump(2) + "\n" : exact_text(problem, set);
+    report = options.report.json ? to_text(json_of(problem, set)) : exact_text(problem, set);
   } else {
     const ExactResult result = solve_exactly(problem);
     status = result.status;
-    report = options.report.json ? json_of(result).dump(2) + "\n" : exact_text(result);
+    report = options.report.json ? to_text(json_of(result)) : exact_text(result);
   }
   if (!options.report.quiet) fmt::print("{}", report);
   if (status == LcpStatus::solved) return k_done;

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 
+#include "json.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace tumble::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::size_t num_solutions(const LcpReport& report) {
   return status_of(report) == LcpStatus::solved ? report.results.size() : 0;
@@ -80,7 +78,7 @@ std::string lcp_text(const LcpReport& report) {
   return text;
 }
 
-std::string lcp_json(const LcpReport& report) { return json_of(report).dump(2) + "\n"; }
+std::string lcp_json(const LcpReport& report) { return to_text(json_of(report)); }
 
 std::string lcp_text(const std::vector<LcpReport>& reports) {
   std::size_t width = 4;
@@ -111,7 +109,7 @@ std::string lcp_json(const std::vector<LcpReport>& reports) {
     entry.update(json_of(report));
     list.push_back(std::move(entry));
   }
-  return list.dump(2) + "\n";
+  return to_text(list);
 }
 
 }  // namespace tumble::cli

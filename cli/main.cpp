@@ -16,7 +16,6 @@
 #include <fmt/ranges.h>
 
 #include "tumble/lcp/methods.hpp"
-
 #include "tumble/output/file.hpp"
 
 namespace tumble::cli {
@@ -62,6 +61,14 @@ void add_parsed(CLI::App& app, const std::string& name, T& target, T (*parse)(co
       ->type_name(type);
 }
 
+// Left out, it is chosen for the kind of picture: 0 in the library, which is no width to ask for.
+int picture_side(const std::string& option, const std::string& text) {
+  const int side = whole_number(option, text);
+  if (side >= output::k_smallest_picture && side <= output::k_largest_picture) return side;
+  throw std::invalid_argument(fmt::format("{}: must be in [{}, {}] px, got {}", option, output::k_smallest_picture,
+                                          output::k_largest_picture, side));
+}
+
 void add_output_options(CLI::App& app, OutputOptions& output) {
   app.add_option("-o,--output", output.files,
                  "File to write; its ending picks the kind: .csv .npz .h5 (data), .png .svg (many poses in "
@@ -74,9 +81,9 @@ void add_output_options(CLI::App& app, OutputOptions& output) {
                  "Kind of the files, whatever their endings: csv, npz, h5, png, svg, gif, mp4")
       ->type_name("NAME");
   app.add_flag("--force", output.pictures.overwrite, "Replace files that exist");
-  add_parsed(app, "--width", output.pictures.width, &whole_number, "Width of pictures [px], 160 to 4096", "by kind",
+  add_parsed(app, "--width", output.pictures.width, &picture_side, "Width of pictures [px], 160 to 4096", "by kind",
              "COUNT");
-  add_parsed(app, "--height", output.pictures.height, &whole_number, "Height of pictures [px], 160 to 4096", "by kind",
+  add_parsed(app, "--height", output.pictures.height, &picture_side, "Height of pictures [px], 160 to 4096", "by kind",
              "COUNT");
   add_parsed(app, "--speed", output.pictures.speed, &number, "Pace of animations; 0.1 is slow motion, > 0", "1",
              "NUMBER");
@@ -169,6 +176,12 @@ void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& comma
 
 int fail(const std::string& message) { return report_failure(message, k_bad_input); }
 
+// What was printed may still be on its way, to a disk that is full.
+int after_printing(int exit_code) {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("standard output could not be written");
+  return exit_code;
+}
+
 // CLI11 would say that a command is missing and leave out that it does not know the word.
 void require_command(const CLI::App& program, const std::string& word) {
   const auto commands = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
@@ -196,11 +209,9 @@ int run(int argc, char** argv) {
   try {
     if (argc > 1) require_command(program, argv[1]);
     program.parse(argc, argv);
-    const int exit_code = command();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("standard output could not be written");
-    return exit_code;
+    return after_printing(command());
   } catch (const CLI::Success& request) {  // --help, --version
-    return program.exit(request);
+    return after_printing(program.exit(request));
   } catch (const CLI::ParseError& error) {
     return fail(error.what());
   } catch (const std::exception& error) {

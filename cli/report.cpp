@@ -3,14 +3,12 @@
 #include <array>
 #include <numbers>
 
+#include "json.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace tumble::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 4> k_corner_names = {"(-,-)", "(+,-)", "(+,+)", "(-,+)"};
 
@@ -74,9 +72,9 @@ std::string drop_text(const drop::Record& record, const std::vector<std::string>
   const drop::Parameters& p = record.parameters;
   const drop::Trajectory& trajectory = record.trajectory;
   const int last = trajectory.columns - 1;
-  std::string text =
-      fmt::format("square of side {} m, mass {} kg, friction {}, restitution {}; {} steps of {} s\nstart: {}\n\n", p.l,
-                  p.m, p.mu, p.eps, p.columns - 1, p.dt, state_text(trajectory.q_at(0), trajectory.v_at(0)));
+  std::string text = fmt::format(
+      "square of side {} m, mass {} kg, friction {}, restitution {}; {} step{} of {} s\nstart: {}\n\n", p.l, p.m, p.mu,
+      p.eps, p.columns - 1, p.columns == 2 ? "" : "s", p.dt, state_text(trajectory.q_at(0), trajectory.v_at(0)));
   text += impact_table(record);
   if (trajectory.status != LcpStatus::solved) {
     text += fmt::format("\nstep {} of {} left the range of double arithmetic: status {}, residual {:.3g}\n", last + 1,
@@ -120,7 +118,7 @@ std::string drop_json(const drop::Record& record, const std::vector<std::string>
                          {"q", json_of(trajectory.q_at(last))},
                          {"v", json_of(trajectory.v_at(last))}}},
                        {"files", files}};
-  return report.dump(2) + "\n";
+  return to_text(report);
 }
 
 }  // namespace tumble::cli

@@ -1,4 +1,5 @@
 // tumble._core: systems of contacts as LCPs. Public face: tumble/lcp/.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +12,7 @@
 
 #include "tumble/lcp/contact_motions.hpp"
 #include "tumble/lcp/contact_system.hpp"
+#include "tumble/lcp/enumerate.hpp"
 #include "tumble/lcp/one_contact.hpp"
 #include "tumble/lcp/solve_contacts.hpp"
 
@@ -20,9 +22,12 @@ namespace {
 using namespace py::literals;
 using Index = std::size_t;
 
+constexpr Index k_max_contacts_of_motions = k_max_enumerate_size / 4;
+
 // `as_array` without NaN and infinity; the core would name its own fields.
-Array as_finite(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape) {
-  Array array = as_array(object, name, shape);
+Array as_finite(const py::handle& object, const char* name, const std::vector<py::ssize_t>& shape,
+                const std::string& shape_in_words = "") {
+  Array array = as_array(object, name, shape, shape_in_words);
   const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 0;
   for (py::ssize_t i = 0; i < array.size(); ++i) {
     if (std::isfinite(array.data()[i])) continue;
@@ -34,7 +39,7 @@ Array as_finite(const py::handle& object, const char* name, const std::vector<py
 
 // Three numbers for each body.
 std::vector<Vector3> per_body(const py::handle& object, const char* name, py::ssize_t length = -1) {
-  const Array array = as_finite(object, name, {length});
+  const Array array = as_finite(object, name, {length}, length < 0 ? "(3 b,)" : "");
   if (array.size() % 3 != 0) {
     throw std::invalid_argument(fmt::format("{}: must have 3 entries for each body, got {}", name, array.size()));
   }
@@ -45,11 +50,18 @@ std::vector<Vector3> per_body(const py::handle& object, const char* name, py::ss
 
 // One number for each contact, or the same for all.
 std::vector<double> per_contact(const py::handle& object, const char* name, py::ssize_t count) {
-  const auto any = py::array::ensure(object);
-  if (!any) PyErr_Clear();
-  const bool is_one = any && any.ndim() == 0;
-  if (is_one) return std::vector<double>(static_cast<Index>(count), as_number(object, name));
-  return as_vector(as_finite(object, name, {count}));
+  if (num_dimensions(object, name) != 0) return as_vector(as_finite(object, name, {count}));
+  const double value = as_number(object, name);
+  if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("{}: must be finite, got {}", name, value));
+  return std::vector<double>(static_cast<Index>(count), value);
+}
+
+std::vector<double> frictions(const py::handle& object, py::ssize_t count) {
+  std::vector<double> friction = per_contact(object, "friction", count);
+  const auto negative = std::find_if(friction.begin(), friction.end(), [](double mu) { return mu < 0.0; });
+  if (negative == friction.end()) return friction;
+  throw std::invalid_argument(
+      fmt::format("friction: must be finite and >= 0, got {} at contact {}", *negative, negative - friction.begin()));
 }
 
 Vector3 entries_of(const Array& J, py::ssize_t contact, int body) {
@@ -80,10 +92,11 @@ ContactSystem as_system(const py::handle& normal_rows, const py::handle& tangent
   system.inverse_mass = per_body(inverse_mass, "inverse_mass");
   const auto columns = static_cast<py::ssize_t>(3 * system.inverse_mass.size());
   system.velocity = per_body(velocity, "velocity", columns);
-  const Array J_n = as_finite(normal_rows, "J_n", {-1, columns});
+  const Array J_n = as_finite(normal_rows, "J_n", {-1, columns}, fmt::format("(k, 3 b) = (k, {})", columns));
   const py::ssize_t count = J_n.shape(0);
+  if (count == 0) throw std::invalid_argument("J_n: must have a row for each contact, at least 1, got 0");
   const Array J_t = as_finite(tangent_rows, "J_t", {count, columns});
-  const std::vector<double> mu = per_contact(friction, "friction", count);
+  const std::vector<double> mu = frictions(friction, count);
   const std::vector<double> offsets = per_contact(offset, "offset", count);
   for (py::ssize_t i = 0; i < count; ++i) {
     const auto [a, b] = bodies_of(J_n, J_t, i);
@@ -120,8 +133,13 @@ py::dict motions_dict(const ContactMotions& found) {
 
 py::dict solve_contacts(const py::handle& J_n, const py::handle& J_t, const py::handle& inverse_mass,
                         const py::handle& velocity, const py::handle& friction, const py::handle& offset,
-                        const py::handle& method, bool wants_motions, const py::dict& settings) {
+                        const py::handle& method, const py::handle& motions_wanted, const py::dict& settings) {
+  const bool wants_motions = as_flag(motions_wanted, "motions");
   const ContactSystem system = as_system(J_n, J_t, inverse_mass, velocity, friction, offset);
+  if (wants_motions && system.contacts.size() > k_max_contacts_of_motions) {
+    throw std::invalid_argument(fmt::format("motions: must be False for more than {} contacts, got {}",
+                                            k_max_contacts_of_motions, system.contacts.size()));
+  }
   const LcpSettings chosen = as_settings(method, settings);
   ContactSolution solution;
   ContactMotions motions;
@@ -153,7 +171,7 @@ py::dict contact_motions(const py::handle& M, const py::handle& q, const py::han
 // One array for each field of OneContactSolution.
 py::dict solve_one_contacts(const py::handle& A_nn, const py::handle& A_nt, const py::handle& A_tt,
                             const py::handle& b_n, const py::handle& b_t, const py::handle& friction) {
-  const Array nn = as_array(A_nn, "A_nn", {-1});
+  const Array nn = as_array(A_nn, "A_nn", {-1}, "(N,)");
   const py::ssize_t count = nn.size();
   const Array nt = as_array(A_nt, "A_nt", {count}), tt = as_array(A_tt, "A_tt", {count});
   const Array n = as_array(b_n, "b_n", {count}), t = as_array(b_t, "b_t", {count});
@@ -184,7 +202,7 @@ void bind_contacts(py::module_& module) {
   module.def("contact_problem", &contact_problem, "J_n"_a, "J_t"_a, "inverse_mass"_a, "velocity"_a, "friction"_a,
              "offset"_a);
   module.def("solve_contacts", &solve_contacts, "J_n"_a, "J_t"_a, "inverse_mass"_a, "velocity"_a, "friction"_a,
-             "offset"_a, "method"_a, "wants_motions"_a, "settings"_a);
+             "offset"_a, "method"_a, "motions"_a, "settings"_a);
   module.def("contact_motions", &contact_motions, "M"_a, "q"_a, "row_sizes"_a);
   module.def("solve_one_contacts", &solve_one_contacts, "A_nn"_a, "A_nt"_a, "A_tt"_a, "b_n"_a, "b_t"_a, "friction"_a);
   py::list modes;

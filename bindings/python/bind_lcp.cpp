@@ -24,14 +24,6 @@ using namespace py::literals;
 
 namespace {
 
-// Booleans as zeros and ones, for `as_array`; anything else as it is.
-py::object without_bools(const py::handle& object) {
-  const auto array = py::array::ensure(object);
-  if (!array) PyErr_Clear();
-  if (!array || array.dtype().kind() != 'b') return py::reinterpret_borrow<py::object>(object);
-  return Array::ensure(array);
-}
-
 py::array_t<bool> as_bools(const std::vector<std::uint8_t>& basis) {
   py::array_t<bool> array(static_cast<py::ssize_t>(basis.size()));
   for (std::size_t i = 0; i < basis.size(); ++i) array.mutable_data()[i] = basis[i] != 0;
@@ -44,16 +36,23 @@ py::list as_list(const std::vector<std::string>& words) {
   return list;
 }
 
-bool is_list(const LcpSettings& settings, const std::string& name) {
-  const std::vector<NamedSetting> all = named_settings(settings);
-  return std::any_of(all.begin(), all.end(), [&](const NamedSetting& setting) {
-    return setting.name == name && std::holds_alternative<std::vector<double>>(setting.value);
-  });
+// 0 for a setting that the method does not have: `set_setting` refuses it.
+SettingValue value_of(const LcpSettings& settings, const std::string& name) {
+  for (NamedSetting& setting : named_settings(settings)) {
+    if (setting.name == name) return std::move(setting.value);
+  }
+  return 0;
 }
 
+bool is_list(const LcpSettings& settings, const std::string& name) {
+  return std::holds_alternative<std::vector<double>>(value_of(settings, name));
+}
+
+// None leaves the setting as it is.
 SettingValue as_setting(const LcpSettings& settings, const std::string& name, const py::handle& value) {
+  if (value.is_none()) return value_of(settings, name);
   if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
-  if (is_list(settings, name)) return as_vector(as_array(without_bools(value), name.c_str(), {-1}));
+  if (is_list(settings, name)) return as_vector(as_array(without_bools(value, name.c_str()), name.c_str(), {-1}));
   return as_number(value, name.c_str());
 }
 
@@ -75,11 +74,9 @@ class PerProblem {
   PerProblem() = default;
 
   PerProblem(const py::handle& object, const char* name, py::ssize_t count, std::vector<py::ssize_t> shape) {
-    const auto any = py::array::ensure(object);
-    if (!any) PyErr_Clear();
     size_ = 1;
     for (const py::ssize_t length : shape) size_ *= length;
-    const bool is_shared = any && any.ndim() == static_cast<py::ssize_t>(shape.size());
+    const bool is_shared = num_dimensions(object, name) == static_cast<py::ssize_t>(shape.size());
     if (!is_shared) {
       stride_ = size_;
       shape.insert(shape.begin(), count);
@@ -89,6 +86,7 @@ class PerProblem {
   }
 
   bool is_empty() const { return size_ == 0; }
+  bool is_shared() const { return !is_empty() && stride_ == 0; }
 
   void copy(std::size_t i, std::vector<double>& to) const {
     const double* from = begin_ + static_cast<py::ssize_t>(i) * stride_;
@@ -101,6 +99,20 @@ class PerProblem {
   py::ssize_t size_ = 0;
   py::ssize_t stride_ = 0;  // 0: shared
 };
+
+// Raises ValueError for what is wrong with all problems at once: a method that takes no n like theirs, shared row sizes
+// or a shared start. M = 1, q = 0 is solved by z = 0 at once; what refuses it would refuse every other.
+void require_usable(LcpSettings settings, py::ssize_t n, const PerProblem& sizes, const PerProblem& starts,
+                    const std::string& start_name) {
+  const auto size = static_cast<std::size_t>(n);
+  LcpProblem problem{std::vector<double>(size * size), std::vector<double>(size), {}};
+  for (std::size_t i = 0; i < size; ++i) problem.M[i * size + i] = 1.0;
+  if (sizes.is_shared()) sizes.copy(0, problem.row_sizes);
+  std::vector<double> start;
+  if (starts.is_shared()) starts.copy(0, start);
+  if (!start.empty()) set_by_name(settings, start_name, start);
+  solve_lcp(problem, settings);
+}
 
 // The results of a batch, one row for each problem; 0 where a result has no vector.
 struct BatchArrays {
@@ -178,17 +190,19 @@ void in_parallel(std::size_t count, std::size_t num_threads, const MakeWork& mak
 
 py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle& method, const py::handle& row_sizes,
                      const py::handle& start, const py::handle& threads, const py::dict& settings) {
-  const Array vectors = as_array(q, "q", {-1, -1});
+  const Array vectors = as_array(q, "q", {-1, -1}, "(N, n)");
   const py::ssize_t count = vectors.shape(0), n = vectors.shape(1);
   if (n == 0) throw std::invalid_argument("q: must have at least 1 entry per problem, got 0");
   const PerProblem all_M(M, "M", count, {n, n}), all_q(vectors, "q", count, {n});
   const PerProblem sizes = row_sizes.is_none() ? PerProblem() : PerProblem(row_sizes, "row_sizes", count, {n});
   LcpSettings chosen = as_settings(method, settings);
   const std::string start_name = is_list(chosen, "start_z") ? "start_z" : "start_basis";
-  const PerProblem starts =
-      start.is_none() ? PerProblem() : PerProblem(without_bools(start), start_name.c_str(), count, {n});
+  const PerProblem starts = start.is_none()
+                                ? PerProblem()
+                                : PerProblem(without_bools(start, start_name.c_str()), start_name.c_str(), count, {n});
   if (!start.is_none()) set_setting(chosen, start_name, std::vector<double>());
   validate(chosen);
+  require_usable(chosen, n, sizes, starts, start_name);
   const double wanted = as_number(threads, "threads");
   if (!(wanted >= 0.0 && wanted <= 1024.0 && wanted == std::trunc(wanted))) {
     throw std::invalid_argument(fmt::format("threads: must be a whole number in [0, 1024], got {}", wanted));
@@ -218,20 +232,28 @@ py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle&
   return arrays.as_dict();
 }
 
-py::list all_solutions(const py::handle& M, const py::handle& q, double accepted_residual) {
+py::list all_solutions(const py::handle& M, const py::handle& q, const py::handle& accepted_residual) {
+  const EnumerateSettings settings{as_number(accepted_residual, "accepted_residual")};
   py::list solutions;
-  for (const LcpResult& result : enumerate_solutions(as_problem(M, q), {accepted_residual})) {
+  for (const LcpResult& result : enumerate_solutions(as_problem(M, q), settings)) {
     solutions.append(as_dict(result));
   }
   return solutions;
 }
 
-// The fields of tumble.lcp.ExactResult, numbers as text. `basis` is None for Lemke's method.
+// The fields of tumble.lcp.ExactResult, numbers as text.
+py::dict as_dict(const ExactResult& result) {
+  return py::dict("status"_a = py::str(to_string(result.status)), "z"_a = as_list(result.z), "w"_a = as_list(result.w),
+                  "basis"_a = as_bools(result.basis), "certificate"_a = as_list(result.certificate),
+                  "pivots"_a = result.pivots);
+}
+
+// `basis` is None for one solution of any.
 py::dict exact(std::vector<std::string> M, std::vector<std::string> q, const py::handle& basis) {
   const ExactLcp problem{std::move(M), std::move(q)};
   std::vector<std::uint8_t> start;
   if (!basis.is_none()) {
-    for (const double x : as_vector(as_array(without_bools(basis), "basis", {-1}))) {
+    for (const double x : as_vector(as_array(without_bools(basis, "basis"), "basis", {-1}))) {
       if (x != 0.0 && x != 1.0) throw std::invalid_argument(fmt::format("basis: must be zeros and ones, got {}", x));
       start.push_back(x != 0.0);
     }
@@ -241,9 +263,23 @@ py::dict exact(std::vector<std::string> M, std::vector<std::string> q, const py:
     const py::gil_scoped_release without_gil;
     result = basis.is_none() ? solve_exactly(problem) : exact_solution(problem, start);
   }
-  return py::dict("status"_a = py::str(to_string(result.status)), "z"_a = as_list(result.z), "w"_a = as_list(result.w),
-                  "basis"_a = as_bools(result.basis), "certificate"_a = as_list(result.certificate),
-                  "pivots"_a = result.pivots);
+  return as_dict(result);
+}
+
+// The fields of tumble.lcp.ExactSolutionSet; a face as (vertices, rays).
+py::dict solution_set(std::vector<std::string> M, std::vector<std::string> q) {
+  const ExactLcp problem{std::move(M), std::move(q)};
+  ExactSolutionSet set;
+  {
+    const py::gil_scoped_release without_gil;
+    set = exact_solution_set(problem);
+  }
+  py::list vertices, rays, faces;
+  for (const ExactResult& vertex : set.vertices) vertices.append(as_dict(vertex));
+  for (const std::vector<std::string>& ray : set.rays) rays.append(as_list(ray));
+  for (const SolutionFace& face : set.faces) faces.append(py::make_tuple(face.vertices, face.rays));
+  return py::dict("status"_a = py::str(to_string(set.status)), "vertices"_a = vertices, "rays"_a = rays,
+                  "faces"_a = faces, "certificate"_a = as_list(set.certificate));
 }
 
 // (negative_w, negative_z, complementarity)
@@ -252,8 +288,8 @@ py::tuple residual_parts(const py::handle& M, const py::handle& q, const py::han
   return py::make_tuple(parts.negative_w, parts.negative_z, parts.complementarity);
 }
 
-py::tuple parse_text(const std::string& text, const std::string& name) {
-  const LcpProblem problem = parse_lcp(text, name);
+py::tuple parse_text(const py::handle& text, const py::handle& name) {
+  const LcpProblem problem = parse_lcp(as_text(text, "text"), as_text(name, "name"));
   const auto n = static_cast<py::ssize_t>(problem.size());
   return py::make_tuple(to_numpy(problem.M, n, n), to_numpy(problem.q));
 }
@@ -340,6 +376,7 @@ void bind_lcp(py::module_& module) {
              "settings"_a);
   module.def("all_solutions", &all_solutions, "M"_a, "q"_a, "accepted_residual"_a);
   module.def("exact", &exact, "M"_a, "q"_a, "basis"_a);
+  module.def("solution_set", &solution_set, "M"_a, "q"_a);
   module.def("residual", &residual_parts, "M"_a, "q"_a, "z"_a, "row_sizes"_a);
   module.def("parse_lcp", &parse_text, "text"_a, "name"_a);
   module.def("methods", &methods);

@@ -71,6 +71,21 @@ def test_quiet_prints_nothing(tmp_path: Path) -> None:
     assert (tmp_path / "a.csv").exists()
 
 
+def test_json_survives_a_file_name_that_is_not_utf8(tmp_path: Path) -> None:
+    csv_name, text_name = os.fsdecode(b"a\xff.csv"), os.fsdecode(b"a\xff.txt")
+    dropped = json.loads(succeed("drop", "--json", "-o", csv_name, cwd=tmp_path))
+    rendered = json.loads(succeed("render", "--json", csv_name, "-o", csv_name, "--force", cwd=tmp_path))
+    assert dropped["files"] == rendered["files"] == ["a\N{REPLACEMENT CHARACTER}.csv"]
+    (tmp_path / text_name).write_text("M\n1\nq\n-1\n")
+    reports = json.loads(succeed("lcp", "--json", text_name, text_name, cwd=tmp_path))
+    assert [report["file"] for report in reports] == ["a\N{REPLACEMENT CHARACTER}.txt"] * 2
+
+
+def test_one_step_is_a_step(tmp_path: Path) -> None:
+    assert "; 1 step of 0.01 s\n" in succeed("drop", "--steps", "1", cwd=tmp_path)
+    assert "; 2 steps of 0.01 s\n" in succeed("drop", "--steps", "2", cwd=tmp_path)
+
+
 def test_angles_are_radians_or_degrees(tmp_path: Path) -> None:
     by_degrees = json.loads(succeed("drop", "--json", "--q0", "0,1.5,30deg", "--v0", "0,0,90deg", cwd=tmp_path))
     by_radians = json.loads(succeed("drop", "--json", "--q0=0,1.5,0.5235987755982988", "--v0=0,0,1.5707963267948966", cwd=tmp_path))
@@ -163,7 +178,9 @@ def test_a_named_pipe_is_refused(tmp_path: Path) -> None:
         (["-o", "a"], "a: the name must end in"),
         (["-o", "missing/a.csv"], "missing"),
         (["--speed", "0", "-o", "a.gif"], "--speed: must be finite and > 0, got 0"),
-        (["--width", "7", "-o", "a.png"], "--width: must be"),
+        (["--width", "7", "-o", "a.png"], "--width: must be in [160, 4096] px, got 7"),
+        (["--width", "0", "-o", "a.png"], "--width: must be in [160, 4096] px, got 0"),
+        (["--height", "4097", "-o", "a.png"], "--height: must be in [160, 4096] px, got 4097"),
     ],
 )
 def test_bad_options_are_one_line_and_write_nothing(tmp_path: Path, words: list[str], message: str) -> None:
@@ -217,9 +234,10 @@ def test_a_disk_that_fills_up_costs_nothing(tmp_path: Path, name: str) -> None:
     assert (tmp_path / name).read_text() == "precious"
 
 
-def test_output_that_cannot_be_printed_is_an_error(tmp_path: Path) -> None:
+@pytest.mark.parametrize("word", ["drop", "--help", "--version"])
+def test_output_that_cannot_be_printed_is_an_error(tmp_path: Path, word: str) -> None:
     with open("/dev/full", "w") as full:
-        run = subprocess.run([str(PROGRAM), "drop"], stdout=full, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
+        run = subprocess.run([str(PROGRAM), word], stdout=full, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
     assert run.returncode == 2 and "could not be written" in run.stderr
 
 
@@ -288,6 +306,7 @@ def test_lcp_takes_settings_of_the_method(tmp_path: Path) -> None:
         (["--method", "lemke", "--set", "max_pivots=x"], "max_pivots: must be a number, got 'x'"),
         (["--method", "lemke", "--set", "max_pivots=-1"], "max_pivots: must be >= 0, got -1"),
         (["--set", "accepted_residual"], "--set: must be NAME=VALUE, got 'accepted_residual'"),
+        (["--set", "="], "--set: must be NAME=VALUE, got '='"),
         (["--set", "start_basis=0,2"], "start_basis: must be zeros and ones, got 2"),
         (["--set", "start_basis=1"], "start_basis: must be empty or have 2 entries, got 1"),
         (["--all", "--method", "lemke"], "--all: belongs to the method enumerate, got --method lemke"),
@@ -298,6 +317,7 @@ def test_lcp_takes_settings_of_the_method(tmp_path: Path) -> None:
         (["--exact", "--set", "ridge=0"], "--set"),
         (["--exact", "a.txt"], "--exact: takes one file, got 2"),
         (["--trace", "a.txt"], "--trace: takes one file, got 2"),
+        (["-", "-"], "standard input can be read once only, got '-' several times"),
     ],
 )
 def test_lcp_refuses_bad_options(tmp_path: Path, words: list[str], message: str) -> None:

@@ -110,7 +110,6 @@ TEST(ContactMotions, OfOneContactAreThoseInClosedForm) {
     ++num_with[motions.motions.size()];
     for (int k = 0; k < expected.count; ++k) {
       const OneContactSolution& motion = expected.motion[static_cast<std::size_t>(k)];
-      if (c.friction == 0.0) continue;  // the cone names no normal then: see the next test
       // The first friction unknown of `as_lcp(OneContact)` acts along -t.
       const bool is_left = motion.mode == slip_left, is_right = motion.mode == slip_right;
       const ContactMotion* found = with_modes(motions, {is_left ? slip_right : is_right ? slip_left : motion.mode});
@@ -133,9 +132,40 @@ TEST(ContactMotions, OfASystemAreInTheOrderOfItsContacts) {
   ASSERT_TRUE(motions.is_unique());
   EXPECT_EQ(motions.motions[0].velocities.size(), 4u);
   EXPECT_EQ(motions.motions[0].modes.size(), 2u);
-  EXPECT_EQ(contact_motions(as_lcp(system)).motions[0].velocities.size(), 6u);
   system.contacts.resize(1);
   EXPECT_TRUE(contact_motions(system).is_unique());
+}
+
+// The LCP of contacts without friction does not tell which normal belongs to which cone; their order does.
+TEST(ContactMotions, OfAnLcpAreInTheOrderOfItsContactsWithoutFrictionToo) {
+  test::Random random(44);
+  for (int i = 0; i < 40; ++i) {
+    ContactSystem system = problems::tower(random, 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((i >> k) % 2 != 0) system.contacts[k].friction = 0.0;
+    }
+    const ContactMotions expected = contact_motions(system), found = contact_motions(as_lcp(system));
+    ASSERT_EQ(found.motions.size(), expected.motions.size()) << i;
+    for (std::size_t m = 0; m < expected.motions.size(); ++m) {
+      EXPECT_EQ(found.motions[m].modes, expected.motions[m].modes) << i;
+      EXPECT_EQ(found.motions[m].velocities, expected.motions[m].velocities) << i;
+    }
+  }
+}
+
+// (c_1, c_2, b+, b-, s): one of the normals has no friction unknowns, and nothing tells which.
+TEST(ContactMotions, CountConesAndNormalsAloneThatDoNotPair) {
+  const LcpProblem problem{{1, 0, 0,  0,  0,  //
+                            0, 1, 0,  0,  0,  //
+                            0, 0, 1,  -1, 1,  //
+                            0, 0, -1, 1,  1,  //
+                            0, 0, -1, -1, 0},
+                           {-1, 2, 3, -3, 0},
+                           {}};
+  const ContactMotions found = contact_motions(problem);
+  ASSERT_TRUE(found.is_unique());
+  EXPECT_EQ(found.motions[0].modes, (std::vector<ContactMode>{open, stick, open}));
+  EXPECT_EQ(found.motions[0].velocities, (std::vector<double>{0, 3, 0, 0, 2, 0}));
 }
 
 TEST(ContactMotions, DoNotDependOnUnits) {

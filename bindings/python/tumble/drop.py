@@ -212,7 +212,7 @@ def simulate(
     return _core.simulate(q0, v0, params)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Record:
     """A trajectory with everything that happened on the way; T = columns.
 

@@ -125,6 +125,19 @@ ContactMotions motions_of(const LcpProblem& problem, const Contacts& contacts) {
   return result;
 }
 
+// Without friction a cone row names no normal, and the LCP does not tell which one is of the same contact. In `as_lcp`
+// both follow the order of the contacts. Places of normals alone come last, see `find_contacts`.
+void pair_without_friction(std::vector<ContactPlace>& places) {
+  const auto first_normal = std::find_if(places.begin(), places.end(), [](const auto& p) { return p.plus < 0; });
+  const auto has_no_normal = [](const ContactPlace& p) { return p.c < 0; };
+  if (std::count_if(places.begin(), first_normal, has_no_normal) != places.end() - first_normal) return;
+  auto normal = first_normal;
+  for (auto place = places.begin(); place != first_normal; ++place) {
+    if (has_no_normal(*place)) place->c = (normal++)->c;
+  }
+  places.erase(first_normal, places.end());
+}
+
 }  // namespace
 
 ContactMotions contact_motions(const LcpProblem& problem) {
@@ -133,6 +146,7 @@ ContactMotions contact_motions(const LcpProblem& problem) {
   if (!find_contacts(problem, structure)) {
     throw std::invalid_argument("M: must be the matrix of planar contacts, one of them with a friction cone");
   }
+  pair_without_friction(structure.places);
   return motions_of(problem, Contacts(problem, std::move(structure.places)));
 }
 

@@ -29,8 +29,9 @@ struct ContactMotions {
 // All motions of up to three contacts, from `solution_set`, that is, to the accuracy of double arithmetic: velocities
 // that agree to 1e-8 of the terms they are sums of are taken for one. Contacts are recognised in M, in any order and
 // scale of the unknowns; +t is the direction of the first friction unknown. Modes and velocities are in the order of
-// the cone rows, followed by the normals without friction, which are open or stick, with u_t = 0. Where friction is 0
-// the cone row names no normal: that contact counts as one without a normal, which is open, and a normal.
+// the cone rows, followed by the normals without friction unknowns, which are open or stick, with u_t = 0. Where
+// friction is 0 a cone row names no normal: such cones take the normals that no cone names in their order, which is
+// that of `as_lcp`, unless there are more or fewer of them. Each then counts alone; a cone without a normal is open.
 // Throws std::invalid_argument where `solution_set` does, or if M is not that of contacts, one of them with cone rows.
 ContactMotions contact_motions(const LcpProblem& problem);
 

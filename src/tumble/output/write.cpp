@@ -36,8 +36,6 @@ constexpr std::array<NamedFormat, 7> k_formats = {{{"csv", Format::csv},
                                                    {"png", Format::png},
                                                    {"svg", Format::svg}}};
 
-constexpr int k_smallest_picture = 160;  // [px]
-constexpr int k_largest_picture = 4096;
 constexpr std::size_t k_max_bytes_read = std::size_t{4} << 30;  // 4 GiB
 
 struct Size {

@@ -8,6 +8,9 @@
 
 namespace tumble::output {
 
+inline constexpr int k_smallest_picture = 160;  // width and height [px]
+inline constexpr int k_largest_picture = 4096;
+
 struct WriteOptions {
   bool overwrite = false;
   std::string format{};  // csv, npz, h5, gif, mp4, png or svg; empty: by the ending of the name

@@ -10,7 +10,8 @@ a contact, z_i is an impulse and w_i a velocity: either the bodies press, or the
 
 `solve` for one problem, `solve_batch` for many of one size, `solve_contacts` for bodies in contact, `solve_one_contacts`
 for many single contacts. `all_solutions` for every solution of a small problem, `contact_motions` for every motion,
-`exact` for fractions in place of rounded numbers. `METHODS` says what each method does. Theory: docs/theory/lcp.md.
+`exact` and `solution_set` for fractions in place of rounded numbers. `METHODS` says what each method does. Theory:
+docs/theory/lcp.md.
 """
 
 from tumble.lcp.contacts import (
@@ -23,7 +24,7 @@ from tumble.lcp.contacts import (
     solve_contacts,
     solve_one_contacts,
 )
-from tumble.lcp.rational import ExactResult, exact
+from tumble.lcp.rational import ExactFace, ExactResult, ExactSolutionSet, exact, solution_set
 from tumble.lcp.solvers import (
     METHODS,
     BatchResult,
@@ -41,7 +42,9 @@ __all__ = [
     "METHODS",
     "BatchResult",
     "ContactResult",
+    "ExactFace",
     "ExactResult",
+    "ExactSolutionSet",
     "Motion",
     "Motions",
     "OneContacts",
@@ -54,6 +57,7 @@ __all__ = [
     "exact",
     "parse",
     "residual",
+    "solution_set",
     "solve",
     "solve_batch",
     "solve_contacts",

@@ -14,7 +14,7 @@ from tumble.lcp.solvers import STATUSES, Result, as_result, with_start
 MODES = np.array(_core.MODES)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Motion:
     """One motion of k contacts, the same for all solutions whose impulses move the bodies alike.
 
@@ -33,7 +33,7 @@ class Motion:
     velocities: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Motions:
     """All motions that contacts allow.
 
@@ -57,14 +57,14 @@ class Motions:
         return len(self.motions) == 1 and not self.has_between
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class OneContacts:
-    """N contacts, each on its own; arrays of shape (N,).
+    """N contacts, each on its own; arrays of shape (N,). Where the status is not "solved", the others mean nothing.
 
     Attributes
     ----------
     f_n, f_t : ndarray
-        Normal force or impulse, >= 0, and friction along +t.
+        Normal force or impulse, >= 0 where solved, and friction along +t.
     slip_speed : ndarray
         abs(u_t).
     mode, status : ndarray of str
@@ -81,14 +81,17 @@ class OneContacts:
     residual: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ContactResult:
     """The impulses of k contacts between b bodies, and the motion after them.
+
+    Unless ``result.status`` is "solved", impulses, modes and velocities are those of the best candidate met and mean
+    nothing.
 
     Attributes
     ----------
     normal_impulse : ndarray, shape (k,)
-        [N s], >= 0.
+        [N s], >= 0 if solved.
     friction_impulse : ndarray, shape (k,)
         [N s], along +t.
     slip_speed : ndarray, shape (k,)
@@ -98,7 +101,7 @@ class ContactResult:
     velocity : ndarray, shape (3 b,)
         After the impulses, v + M^-1 J^T f: (vx, vy, omega) of each body [m/s, m/s, rad/s].
     result : Result
-        Of the LCP; check its `status`.
+        Of the LCP; check its `status` first.
     motions : Motions or None
         All motions, if asked for: ``motions.is_unique`` tells whether `velocity` is the only outcome.
     """
@@ -304,7 +307,8 @@ def contact_motions(M: ArrayLike, q: ArrayLike, row_sizes: ArrayLike | None = No
     -------
     Motions
         Contacts in the order of their cone rows, +t along the first friction unknown, followed by normals without
-        friction.
+        friction unknowns. Where friction is 0, cones take the normals that no cone names in their order, as in
+        `contact_problem`.
 
     Raises
     ------

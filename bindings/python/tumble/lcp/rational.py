@@ -14,9 +14,11 @@ from tumble import _core
 from tumble.lcp.solvers import Result
 
 _Number = Union[int, float, str, Fraction]
+_Vector = Union[Sequence[_Number], NDArray[Any]]
+_Matrix = Union[Sequence[Sequence[_Number]], NDArray[Any]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ExactResult:
     """What rational arithmetic says of a problem: nothing is rounded.
 
@@ -42,6 +44,64 @@ class ExactResult:
     pivots: int
 
 
+@dataclass(frozen=True)
+class ExactFace:
+    """One polyhedron of solutions: the hull of its vertices plus the cone of its rays.
+
+    Attributes
+    ----------
+    vertices, rays : list of int
+        Places in the lists of the `ExactSolutionSet`.
+    """
+
+    vertices: list[int]
+    rays: list[int]
+
+
+@dataclass(frozen=True, eq=False)
+class ExactSolutionSet:
+    """All solutions of a problem: the union of the faces.
+
+    Attributes
+    ----------
+    status : str
+        "solved"; "infeasible" or "no_solution_proved", both proofs; "iteration_limit": the set has too many vertices.
+    vertices : list of ExactResult
+        In the order of their bases as binary numbers, z_0 the lowest bit.
+    rays : list of list of Fraction
+        Directions in z.
+    faces : list of ExactFace
+        The largest ones.
+    certificate : list of Fraction, or None
+        For "infeasible", as in `Result`.
+    """
+
+    status: str
+    vertices: list[ExactResult]
+    rays: list[list[Fraction]]
+    faces: list[ExactFace]
+    certificate: list[Fraction] | None
+
+
+def _as_fractions(texts: list[str]) -> list[Fraction]:
+    return [Fraction(text) for text in texts]
+
+
+def _as_result(fields: dict[str, Any]) -> ExactResult:
+    z, w, certificate = (_as_fractions(fields.pop(name)) for name in ("z", "w", "certificate"))
+    return ExactResult(z=z, w=w, certificate=certificate or None, **fields)
+
+
+def _entries(values: Any, name: str, kind: str) -> list[Any]:
+    """The entries of a sequence; a text is none, though it has a length."""
+    try:
+        if isinstance(values, str):
+            raise TypeError
+        return list(values)
+    except TypeError:
+        raise ValueError(f"{name}: must be a list of {kind}, got {values!r}") from None
+
+
 def _as_texts(numbers: Iterable[Any], name: str) -> list[str]:
     """Each number as a fraction in text: a float is the fraction it stores, a text means what it says."""
     texts = []
@@ -54,9 +114,19 @@ def _as_texts(numbers: Iterable[Any], name: str) -> list[str]:
     return texts
 
 
+def _problem_texts(M: Any, q: Any) -> tuple[list[str], list[str]]:
+    vector = _entries(q, "q", "numbers")
+    n = len(vector)
+    rows = [_entries(row, f"M[{i}]", "numbers") for i, row in enumerate(_entries(M, "M", "rows"))]
+    lengths = [len(row) for row in rows]
+    if lengths != [n] * n:
+        raise ValueError(f"M: must have shape ({n}, {n}) for q of length {n}, got rows of length {lengths}")
+    return [text for i, row in enumerate(rows) for text in _as_texts(row, f"M[{i}]")], _as_texts(vector, "q")
+
+
 def exact(
-    M: Sequence[Sequence[_Number]] | NDArray[Any],
-    q: Sequence[_Number] | NDArray[Any],
+    M: _Matrix,
+    q: _Vector,
     basis: Result | ExactResult | ArrayLike | None = None,
 ) -> ExactResult:
     """One solution of the LCP (M, q) in rational arithmetic, or a proof that there is none.
@@ -93,12 +163,43 @@ def exact(
     >>> exact([[2, 1], [1, 2]], [-5, -6], solve([[2, 1], [1, 2]], [-5, -6])).z
     [Fraction(4, 3), Fraction(7, 3)]
     """
-    rows, length = list(M), len(q)
-    if len(rows) != length or any(isinstance(row, str) or len(row) != length for row in rows):
-        raise ValueError(f"M: must have shape ({length}, {length}) for q of length {length}")
-    entries = [text for i, row in enumerate(rows) for text in _as_texts(row, f"M[{i}]")]
     if isinstance(basis, (Result, ExactResult)):
         basis = basis.basis
-    fields = _core.exact(entries, _as_texts(q, "q"), basis)
-    z, w, certificate = (list(map(Fraction, fields.pop(name))) for name in ("z", "w", "certificate"))
-    return ExactResult(z=z, w=w, certificate=certificate or None, **fields)
+    return _as_result(_core.exact(*_problem_texts(M, q), basis))
+
+
+def solution_set(M: _Matrix, q: _Vector) -> ExactSolutionSet:
+    """All solutions of the LCP (M, q), n <= 12, in rational arithmetic.
+
+    Parameters
+    ----------
+    M : array_like, shape (n, n)
+        As for `exact`.
+    q : array_like, shape (n,)
+
+    Returns
+    -------
+    ExactSolutionSet
+
+    Raises
+    ------
+    ValueError
+        As `exact`, and for n > 12.
+
+    Examples
+    --------
+    Two feet carry one weight, in any shares: a segment of solutions.
+
+    >>> found = solution_set([[1, 1], [1, 1]], [-1, -1])
+    >>> [[str(z) for z in vertex.z] for vertex in found.vertices], found.faces
+    ([['1', '0'], ['0', '1']], [ExactFace(vertices=[0, 1], rays=[])])
+    """
+    fields = _core.solution_set(*_problem_texts(M, q))
+    certificate = _as_fractions(fields["certificate"])
+    return ExactSolutionSet(
+        status=fields["status"],
+        vertices=[_as_result(vertex) for vertex in fields["vertices"]],
+        rays=[_as_fractions(ray) for ray in fields["rays"]],
+        faces=[ExactFace(*face) for face in fields["faces"]],
+        certificate=certificate or None,
+    )

@@ -33,7 +33,7 @@ class Residual:
         return max(self.negative_w, self.negative_z, self.complementarity)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Result:
     """What a solver returns.
 
@@ -77,7 +77,7 @@ class Result:
     certificate: NDArray[np.float64] | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BatchResult:
     """The results of N problems of size n; ``batch[i]`` is the `Result` of problem i.
 
@@ -131,18 +131,32 @@ def as_result(fields: dict[str, Any]) -> Result:
     return Result(parts=parts, **fields)
 
 
-def _start_name(method: str) -> str:
-    """The setting that takes a start: the methods that sweep begin at a z, the others at a basis."""
-    return "start_z" if "start_z" in default_settings(method) else "start_basis"
+def _start_name(method: str) -> str | None:
+    """The setting that takes a start, if any: the methods that sweep begin at a z, the others at a basis."""
+    known = default_settings(method)
+    return next((name for name in ("start_z", "start_basis") if name in known), None)
+
+
+def _named_start(
+    method: str, start: Result | BatchResult | ArrayLike, settings: dict[str, Any]
+) -> tuple[str, ArrayLike]:
+    """The name and value of the setting that `start` stands for."""
+    name = _start_name(method)
+    if name is None:
+        takers = ", ".join(other for other in METHODS if _start_name(other))
+        raise TypeError(f"start: the method {method} takes none; those that do are {takers}")
+    if settings.get(name) is not None:
+        raise TypeError(f"start, {name}: say the same, give one of them")
+    if isinstance(start, (Result, BatchResult)):
+        start = start.z if name == "start_z" else start.basis
+    return name, start
 
 
 def with_start(method: str, start: Result | ArrayLike | None, settings: dict[str, Any]) -> dict[str, Any]:
     if start is None:
         return settings
-    name = _start_name(method)
-    if isinstance(start, Result):
-        start = start.z if name == "start_z" else start.basis
-    return {**settings, name: start}
+    name, value = _named_start(method, start, settings)
+    return {**settings, name: value}
 
 
 def solve(
@@ -180,19 +194,23 @@ def solve(
         The result of a problem like this one, or its basis. It is tried first; if it still fits, no pivot is made.
         Methods with the setting start_basis take it, and those with start_z, which want a z in place of a basis.
     **settings
-        Settings of the method, by name; `default_settings` lists them.
+        Settings of the method, by name; `default_settings` lists them. None stands for the default.
 
     Returns
     -------
     Result
         Check `status`: a problem without a solution is an outcome, not an error.
 
+    Notes
+    -----
+    One problem is solved in one go: Ctrl-C is noticed after it, also in `solve_contacts` and `all_solutions`.
+
     Raises
     ------
     ValueError
         For an unknown method, a matrix that does not fit q, NaN, infinite or masked entries, or a setting out of range.
     TypeError
-        For a setting that the method does not have.
+        For a setting that the method does not have, a `start` included, and for two starts.
 
     References
     ----------
@@ -228,7 +246,7 @@ def solve_batch(
     method: str = "robust",
     *,
     row_sizes: ArrayLike | None = None,
-    start: BatchResult | ArrayLike | None = None,
+    start: BatchResult | Result | ArrayLike | None = None,
     threads: int = 1,
     **settings: Any,
 ) -> BatchResult:
@@ -246,10 +264,11 @@ def solve_batch(
         One of `METHODS`.
     row_sizes : array_like, shape (N, n) or (n,), optional
         The typical size of each w_i, see `residual`.
-    start : BatchResult or array_like, shape (N, n) or (n,), optional
-        Where to start, see `solve`.
+    start : BatchResult, Result or array_like, shape (N, n) or (n,), optional
+        Where to start, see `solve`; of shape (n,) for all.
     threads : int
-        0 takes one for each processor. The interpreter is free while they work.
+        0 takes one for each processor. The interpreter is free while they work. Ctrl-C is noticed every 64 problems, not
+        within one.
     **settings
         Settings of the method, by name; `default_settings` lists them.
 
@@ -260,9 +279,10 @@ def solve_batch(
     Raises
     ------
     ValueError
-        For an unknown method, shapes that do not fit, or a setting out of range.
+        For an unknown method, shapes that do not fit, a setting out of range, and for what no problem could be solved
+        with: negative shared row_sizes, or n > 12 with "enumerate".
     TypeError
-        For a setting that the method does not have.
+        As `solve`.
 
     Examples
     --------
@@ -272,8 +292,8 @@ def solve_batch(
     >>> batch[0].z
     array([1.33333333, 2.33333333])
     """
-    if isinstance(start, BatchResult):
-        start = start.z if _start_name(method) == "start_z" else start.basis
+    if start is not None:
+        _, start = _named_start(method, start, settings)
     fields = _core.solve_batch(M, q, method, row_sizes, start, threads, settings)
     status, rung = STATUSES[fields.pop("status")], RUNGS[fields.pop("rung")]
     return BatchResult(status=status, rung=rung, **fields)
@@ -308,7 +328,7 @@ def default_settings(method: str = "robust") -> dict[str, Any]:
     Examples
     --------
     >>> default_settings("lemke")
-    {'max_pivots': 0, 'pivot_tolerance': 1e-08, 'accepted_residual': 1e-08}
+    {'max_pivots': 0, 'pivot_tolerance': 1e-08, 'accepted_residual': 1e-10}
     """
     return _core.settings_of(method)
 
