@@ -206,19 +206,9 @@ def is_solution(result: lcp.Result) -> bool:
 @given(matrices(1e-9))
 @settings(max_examples=300, deadline=None, derandomize=True)
 def test_lemke_and_robust_solve_every_problem_with_a_definite_matrix(data) -> None:
-    robust, lemke = (lcp.solve(data[:5] @ data[:5].T + 0.1 * np.eye(5), data[5], method) for method in ("robust", "lemke"))
-    assert robust.status == "solved" and is_solution(robust)
-    # Lemke's cover is as large as q. Where the terms of a row are below 1e-14 of it, the ratio test takes for a tie what
-    # decides that row, and the residual, which judges a row by its own terms, says so.
-    assert lemke.status in ("solved", "numerical") and is_solution(lemke)
-
-
-@given(matrices(1e-4))
-@settings(max_examples=300, deadline=None, derandomize=True)
-def test_lemke_says_solved_where_no_row_is_tiny(data) -> None:
-    """Entries of M are products of two: no smaller than 1e-8, far above the 1e-14 of a tie."""
-    result = lcp.solve(data[:5] @ data[:5].T + 0.1 * np.eye(5), data[5], "lemke")
-    assert result.status == "solved" and is_solution(result)
+    for method in ("robust", "lemke"):
+        result = lcp.solve(data[:5] @ data[:5].T + 0.1 * np.eye(5), data[5], method)
+        assert result.status == "solved" and is_solution(result), method
 
 
 @given(matrices(0.0))
