@@ -1,4 +1,6 @@
 // Times of single calls. Run by benchmarks/run.py, or alone: build/benchmarks/micro/tumble_micro.
+#include <array>
+#include <span>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -26,16 +28,19 @@ BENCHMARK_CAPTURE(one_contact, stick, contact_with_slip(0.5));
 BENCHMARK_CAPTURE(one_contact, slip, contact_with_slip(3.0));
 BENCHMARK_CAPTURE(one_contact, open, OneContact{0.083, -0.03, 0.06, 0.2, 0.5, 0.3});
 
-// The time of one contact among many side by side; every other one sticks.
-void one_contacts(benchmark::State& state) {
-  constexpr std::size_t count = 1024;
-  std::vector<double> A_nn(count), A_nt(count), A_tt(count), b_n(count), b_t(count), friction(count);
+// The time of one contact among many side by side; every other one sticks. Arrays begin `offset` doubles after a
+// multiple of 64 bytes: what std::vector gives is two off, and registers of 64 bytes then cross lines of the cache.
+void one_contacts(benchmark::State& state, std::size_t offset) {
+  constexpr std::size_t count = 1024, num_arrays = 10;
+  alignas(64) static std::array<double, num_arrays*(count + 8)> memory;
+  std::array<std::span<double>, num_arrays> arrays;
+  for (std::size_t k = 0; k < num_arrays; ++k) arrays[k] = {memory.data() + k * (count + 8) + offset, count};
+  const auto& [A_nn, A_nt, A_tt, b_n, b_t, friction, f_n, f_t, slip_speed, residual] = arrays;
   for (std::size_t i = 0; i < count; ++i) {
     const OneContact contact = contact_with_slip(i % 2 == 0 ? 0.5 : 3.0);
     A_nn[i] = contact.A_nn, A_nt[i] = contact.A_nt, A_tt[i] = contact.A_tt;
     b_n[i] = contact.b_n, b_t[i] = contact.b_t, friction[i] = contact.friction;
   }
-  std::vector<double> f_n(count), f_t(count), slip_speed(count), residual(count);
   std::vector<ContactMode> mode(count);
   std::vector<LcpStatus> status(count);
   while (state.KeepRunningBatch(count)) {
@@ -43,7 +48,8 @@ void one_contacts(benchmark::State& state) {
     benchmark::ClobberMemory();
   }
 }
-BENCHMARK(one_contacts)->Name("one_contact/side by side");
+BENCHMARK_CAPTURE(one_contacts, aligned, 0)->Name("one_contact/side by side");
+BENCHMARK_CAPTURE(one_contacts, unaligned, 2)->Name("one_contact/side by side, not aligned");
 
 template <class Settings>
 void general_solver(benchmark::State& state) {

@@ -1,6 +1,7 @@
 """tumble.lcp: solvers for any linear complementarity problem, from Python."""
 
 import _thread
+import math
 import threading
 import time
 from fractions import Fraction
@@ -470,14 +471,16 @@ def test_exact_takes_a_basis_of_zeros_and_ones() -> None:
 def test_a_batch_ends_at_ctrl_c() -> None:
     M, q = random_contacts(6, 2)
     slow: dict[str, object] = {"method": "lemke_lu", "precision": "quad"}
-    begin = time.perf_counter()
-    lcp.solve_batch(M[1], np.tile(q[1], (50, 1)), **slow)  # type: ignore[arg-type]
-    seconds_each = (time.perf_counter() - begin) / 50
-    whole = np.tile(q[1], (int(20.0 / seconds_each), 1))  # would take 20 s on one thread
+    seconds_each = math.inf  # at best: another program may hold up any of these
+    for _ in range(20):
+        begin = time.perf_counter()
+        lcp.solve_batch(M[1], np.tile(q[1], (20, 1)), **slow)  # type: ignore[arg-type]
+        seconds_each = min(seconds_each, (time.perf_counter() - begin) / 20)
+    whole = np.tile(q[1], (int(40.0 / seconds_each), 1))  # takes 20 s on two threads
     timer = threading.Timer(0.5, _thread.interrupt_main)
     timer.start()
     begin = time.perf_counter()
     with pytest.raises(KeyboardInterrupt):
         lcp.solve_batch(M[1], whole, threads=2, **slow)  # type: ignore[arg-type]
     timer.join()
-    assert time.perf_counter() - begin < 5.0
+    assert time.perf_counter() - begin < 10.0
