@@ -31,6 +31,13 @@ TEST(RobustSlice, SolvesEveryWildProblemOfUpTo16Unknowns) { expect_wild_solved(1
 
 TEST(RobustSlice, SolvesEveryWildProblemOfUpTo48Unknowns) { expect_wild_solved(2'000, 12); }
 
+// 12 contacts, some of which depend on each other to the last bit: M is indefinite by its rounding, so that a ridge
+// must be above 1e-17, and with 1e-15 the residual is 1.7e-11.
+TEST(RobustSlice, SolvesAProblemThatNeedsTheSmallestRidge) {
+  LcpWorkspace workspace;
+  EXPECT_EQ(failure_of(as_lcp(problems::wild_of(6, 746'943, 12)), workspace), "");
+}
+
 TEST(RobustSlice, SolvesEveryStackOfUpTo400Unknowns) {
   LcpWorkspace workspace;
   for (const problems::Family& family : problems::families()) {

@@ -126,7 +126,7 @@ void ContactModes::fill_equations(const ContactStructure& structure) {
   }
 }
 
-// LU in place, within the profile, without exchanges.
+// LU in place, within the profile, without exchanges; the pivots are inverted.
 void ContactModes::factor(const ContactStructure& structure) {
   ++factorisations_;
   list_unknowns(structure);
@@ -137,13 +137,14 @@ void ContactModes::factor(const ContactStructure& structure) {
     for (auto c = static_cast<Index>(first_[i]); c < i; ++c) {
       if (row[c] == 0.0) continue;
       const double* from = matrix_.data() + c * k;
-      const double factor = row[c] / from[c];
+      const double factor = row[c] * from[c];
       row[c] = factor;
       const auto end = static_cast<Index>(last_[c]) + 1;
       for (Index j = c + 1; j < end; ++j) row[j] -= factor * from[j];
       last_[i] = std::max(last_[i], last_[c]);
     }
     if (row[i] == 0.0) row[i] = ridge_ * std::abs(structure.diagonal[static_cast<Index>(unknown_[i])]);
+    row[i] = 1.0 / row[i];
   }
 }
 
@@ -163,7 +164,7 @@ void ContactModes::find_impulses(const ContactStructure& structure, const std::v
     const double* row = matrix_.data() + i * k;
     double sum = x[i];
     for (Index j = i + 1; j <= static_cast<Index>(last_[i]); ++j) sum -= row[j] * x[j];
-    x[i] = sum / row[i];
+    x[i] = sum * row[i];
   }
   f.assign(2 * structure.places.size(), 0.0);
   for (Index i = 0; i < k; ++i) f[static_cast<Index>(unknown_[i])] = x[i];

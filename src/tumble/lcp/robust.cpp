@@ -145,8 +145,8 @@ void try_infeasible(const LcpProblem& problem, const RobustSettings&, LcpWorkspa
 }
 
 // Lemke with 113 bits, for M as it is or with a tiny diagonal: contacts that depend on each other to the last bits
-// share their load once they have one, of a size at which 113 bits keep the digits that doubles would lose. Large
-// problems start from the last basis met, if it is nearly right.
+// share their load once they have one. It must be above the round-off of M, which leaves rays, and the residual grows
+// with it. Large problems start from the last basis met, if it is nearly right.
 void run_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace,
               std::initializer_list<double> ridges) {
   constexpr double nearly_right = 1e-3;
@@ -168,7 +168,7 @@ void run_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWork
 }
 
 void try_lemke_quad(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace) {
-  run_quad(problem, settings, workspace, {0.0, 1e-14, 1e-15, 1e-13});
+  run_quad(problem, settings, workspace, {0.0, 1e-14, 1e-15, 1e-16, 1e-13});
 }
 
 // For large problems.
