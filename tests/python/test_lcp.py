@@ -2,6 +2,7 @@
 
 import _thread
 import math
+import signal
 import threading
 import time
 from fractions import Fraction
@@ -469,6 +470,15 @@ def test_exact_takes_a_basis_of_zeros_and_ones() -> None:
 
 
 def test_a_batch_ends_at_ctrl_c() -> None:
+    # A program started in the background ignores Ctrl-C, and the test with it.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        expect_a_batch_to_end_at_ctrl_c()
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def expect_a_batch_to_end_at_ctrl_c() -> None:
     M, q = random_contacts(6, 2)
     slow: dict[str, object] = {"method": "lemke_lu", "precision": "quad"}
     seconds_each = math.inf  # at best: another program may hold up any of these
