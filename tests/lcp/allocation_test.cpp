@@ -17,7 +17,7 @@ namespace {
 class LcpAllocations : public testing::Test {
  protected:
   void SetUp() override {
-    if (!test::counts_allocations()) GTEST_SKIP() << "allocations are not counted here";
+    if (!test::counts_allocations()) GTEST_SKIP() << "only glibc without a sanitizer lets a program count all of them";
   }
 };
 

@@ -44,7 +44,8 @@ void validate(const ContactSystem& system);
 // Row sizes: the largest |u_n|, |u_t| before the impulses; that over the contact's own normal response for the cones.
 LcpProblem as_lcp(const ContactSystem& system);
 
-// (u_n, u_t) of a contact between bodies with these velocities.
+// (u_n, u_t) [m/s] of a contact, offset included, where the bodies have the given velocities (v_x, v_y, omega), one for
+// each body of the system.
 std::array<double, 2> velocity_at(const BodyContact& contact, const std::vector<Vector3>& velocity);
 
 // What a contact does, from its entries of z and the tangential velocity after the impulses.

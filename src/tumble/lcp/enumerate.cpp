@@ -83,13 +83,9 @@ void balance(const LcpProblem& problem, std::vector<int>& row, std::vector<int>&
 class Enumeration {
  public:
   Enumeration(const LcpProblem& problem, const EnumerateSettings& settings, bool wants_rays)
-      : problem_(problem),
-        n_(problem.size()),
-        accepted_residual_(settings.accepted_residual),
-        wants_rays_(wants_rays),
-        scales_(equilibrate(problem)) {
+      : problem_(problem), n_(problem.size()), accepted_residual_(settings.accepted_residual), wants_rays_(wants_rays) {
     ContactStructure contacts;
-    find_row_sizes(problem, contacts, scales_, row_sizes_);
+    if (find_row_sizes(problem, contacts, scales_, row_sizes_)) equilibrate(problem, scales_);
     balance(problem, scales_.row, scales_.column);
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < n_; ++j) M_[i][j] = std::ldexp(problem(i, j), scales_.row[i] + scales_.column[j]);

@@ -6,6 +6,7 @@
 
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/solve.hpp"
 
 namespace tumble {
 namespace {
@@ -78,15 +79,6 @@ void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWork
   }
 }
 
-template <class OnPivot>
-void solve(const LcpProblem& problem, const LemkeSettings& settings, LcpWorkspace& workspace, OnPivot on_pivot) {
-  validate(problem);
-  validate(settings);
-  prepare(problem, workspace);
-  if (solve_trivially(problem, workspace)) return;
-  run_lemke(problem, settings, workspace, on_pivot);
-}
-
 std::vector<double> textbook_tableau(const ScaledProblem& problem, const Tableau& tableau) {
   const int n = static_cast<int>(problem.size());
   // A variable's value in the units shown is its scaled value times 2^exponent.
@@ -118,23 +110,23 @@ void run_lemke(const LcpProblem& problem, const LemkeSettings& settings, LcpWork
   run_lemke(problem, settings, workspace, [](int, int) {});
 }
 
-LcpResult lemke(const LcpProblem& problem, const LemkeSettings& settings) {
-  LcpWorkspace workspace;
-  solve(problem, settings, workspace, [](int, int) {});
-  return std::move(workspace.result);
-}
+LcpResult lemke(const LcpProblem& problem, const LemkeSettings& settings) { return solve_lcp(problem, settings); }
 
 LemkeTrace trace_lemke(const LcpProblem& problem, const LemkeSettings& settings) {
+  validate(problem);
+  validate(settings);
   LcpWorkspace workspace;
   LemkeTrace trace;
-  solve(problem, settings, workspace, [&](int entering, int leaving) {
+  const auto write_down = [&](int entering, int leaving) {
     const Tableau& tableau = workspace.buffers().tableau;
     LemkePivot& pivot = trace.pivots.emplace_back();
     pivot.entering = entering;
     pivot.leaving = leaving;
     for (int i = 0; i < static_cast<int>(problem.size()); ++i) pivot.basis.push_back(tableau.basic(i));
     pivot.tableau = textbook_tableau(workspace.buffers().scaled, tableau);
-  });
+  };
+  prepare(problem, workspace);
+  if (!solve_trivially(problem, workspace)) run_lemke(problem, settings, workspace, write_down);
   Tableau& tableau = workspace.buffers().tableau;
   tableau.start(workspace.buffers().scaled);
   trace.start = textbook_tableau(workspace.buffers().scaled, tableau);

@@ -26,8 +26,8 @@ std::vector<double> complement(const LcpProblem& problem, std::span<const double
 
 namespace {
 
-// w = M z + q and d_i for R rows from `first` on, side by side: a sum from the
-// first column to the last waits for each of its additions, R sums fill the time.
+// w = M z + q and d_i for R rows from `first` on, side by side: a sum from the first column to the last waits for each
+// of its additions, R sums fill the time.
 template <std::size_t R>
 void sum_rows(const LcpProblem& problem, std::size_t first, const RowSizes& sizes, std::span<const double> z,
               std::vector<double>& w, JudgeBuffers& buffers) {

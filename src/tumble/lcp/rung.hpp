@@ -27,8 +27,8 @@ bool solve_trivially(const LcpProblem& problem, LcpWorkspace& workspace);
 // Judges buffers.z, and takes it, with its w, as the result if it is better than what the result holds.
 void judge_candidate(const LcpProblem& problem, LcpWorkspace& workspace);
 
-// How a method ends, whose pivots ended with `status`: what is right is solved, in whatever way they ended, and what is
-// not is not.
+// The status of a method whose pivots ended with `status`: solved if the residual is accepted, however they ended;
+// numerical if they ended as they should and it is not; else theirs.
 void conclude(LcpStatus status, double accepted_residual, LcpResult& result);
 
 // Solves M_BB z_B = -q_B for the basis given, in scaled numbers, into buffers.z_scaled. False if M_BB is singular, up

@@ -139,7 +139,8 @@ def exact(
     q : array_like, shape (n,)
     basis : Result, ExactResult or array_like of 0 and 1, shape (n,), optional
         Solve for this basis: 1 where w_i = 0, 0 where z_i = 0. With a `Result` it is proved right, or refuted. Left
-        out, Lemke's method with a lexicographic rule [1]_ looks for one.
+        out, Lemke's method with a lexicographic rule [1]_ looks for one and, where it ends without an answer and
+        n <= 12, `solution_set`.
 
     Returns
     -------
