@@ -1,0 +1,28 @@
+// All contacts of a scene.
+#pragma once
+
+#include <vector>
+
+#include "tumble/geometry/contact_point.hpp"
+#include "tumble/math/pose.hpp"
+#include "tumble/scene/scene.hpp"
+
+namespace tumble {
+
+// A contact of two bodies.
+struct Contact : ContactPoint {
+  int body_a = 0, body_b = 0;  // indices into Scene::bodies, body_a < body_b
+  int part_a = 0, part_b = 0;  // indices into Body::parts
+};
+
+// Scratch memory and what does not change with the motion. Of one scene; its loss changes no result. One per thread.
+class ContactFinder {
+ public:
+  explicit ContactFinder(const Scene& scene);
+
+  // The contacts at these frames, one for each body, with gap <= reach[a] + reach[b] [m], of pairs of bodies of which
+  // at least one is dynamic. In the order of (body_a, body_b, part_a, part_b, feature). Valid until the next call.
+  const std::vector<Contact>& find(const std::vector<Frame>& frames, const std::vector<double>& reach);
+};
+
+}  // namespace tumble
