@@ -24,8 +24,12 @@ inline Frame frame_of(const Pose& pose) {
 }
 
 // Directions and points from the frame's own coordinates to the world's, and back.
-inline Vector2 direction_to_world(const Frame& f, Vector2 a) { return {f.cos * a.x - f.sin * a.y, f.sin * a.x + f.cos * a.y}; }
-inline Vector2 direction_to_local(const Frame& f, Vector2 a) { return {f.cos * a.x + f.sin * a.y, f.cos * a.y - f.sin * a.x}; }
+inline Vector2 direction_to_world(const Frame& f, Vector2 a) {
+  return {f.cos * a.x - f.sin * a.y, f.sin * a.x + f.cos * a.y};
+}
+inline Vector2 direction_to_local(const Frame& f, Vector2 a) {
+  return {f.cos * a.x + f.sin * a.y, f.cos * a.y - f.sin * a.x};
+}
 inline Vector2 point_to_world(const Frame& f, Vector2 a) { return f.position + direction_to_world(f, a); }
 inline Vector2 point_to_local(const Frame& f, Vector2 a) { return direction_to_local(f, a - f.position); }
 

@@ -18,7 +18,7 @@ struct RoundedPolygon {
 struct Ellipse {
   double semi_axis_x = 0.0;  // [m] > 0, along x of `pose`
   double semi_axis_y = 0.0;
-  Pose pose;                 // of its centre and axes in the frame of the body
+  Pose pose;  // of its centre and axes in the frame of the body
 };
 
 // All points p with normal . p <= offset: solid below the line. Fixed bodies only.
@@ -52,9 +52,9 @@ Shape moved(const Shape& shape, const Pose& pose);
 void validate(const Shape& shape);
 
 struct AreaMoments {
-  double area = 0.0;           // [m^2]
-  Vector2 centroid;            // [m]
-  double polar_moment = 0.0;   // [m^4], integral of |p - centroid|^2
+  double area = 0.0;          // [m^2]
+  Vector2 centroid;           // [m]
+  double polar_moment = 0.0;  // [m^4], integral of |p - centroid|^2
 };
 
 // Exact, roundings included; without area for half-planes, terrain and segments.
