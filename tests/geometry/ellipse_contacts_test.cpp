@@ -124,8 +124,8 @@ TEST(EllipseContacts, DegeneratePairsAreProvedClosest) {
   for (const double ratio : {1.0, 0.999999, 0.5, 0.01, 0.001}) {
     for (const double other : {1.0, 0.5, 0.001}) {
       for (const double angle : {0.0, 1e-9, 0.7853981633974483, 1.5707963267948966}) {
-        for (const double shift : {0.0, 1e-12, 1.0, 2.0, 2.0 + 1e-12}) {
-          for (const double lift : {0.0, ratio + other, 1e-9}) {
+        for (const double shift : {0.0, 1e-12, 1e-3, 1.0, 1.999, 2.0, 2.0 + 1e-12, 2.1}) {
+          for (const double lift : {0.0, ratio, ratio + other, 1e-9}) {
             SCOPED_TRACE(testing::Message() << ratio << " " << other << " " << angle << " " << shift << " " << lift);
             expect_closest(Ellipse{1.0, ratio, {}}, frame(0, 0, 0), Ellipse{other, 1.0, {}}, frame(shift, lift, angle));
             expect_closest(Ellipse{1.0, ratio, {}}, frame(0, 0, 0), Ellipse{1.0, other, {}}, frame(shift, lift, angle));

@@ -1,6 +1,7 @@
 #include "tumble/geometry/detect_contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tumble/geometry/pair_contacts.hpp"
 
@@ -11,33 +12,24 @@ ContactFinder::ContactFinder(const Scene& scene) : placed_at_(scene.bodies.size(
     const Body& body = scene.bodies[i];
     placed_at_[i] = frame_of(body.pose);
     for (std::size_t k = 0; k < body.parts.size(); ++k) {
-      const int index = static_cast<int>(parts_.size());
-      PlacedPart part{placed_shape(body.parts[k].shape),
-                      static_cast<int>(i),
-                      static_cast<int>(k),
-                      body.kind == BodyKind::dynamic,
-                      {}};
+      PlacedPart part{placed_shape(body.parts[k].shape), static_cast<int>(i), static_cast<int>(k),
+                      body.kind == BodyKind::dynamic};
       place(part.shape, placed_at_[i]);
-      (std::holds_alternative<PlacedHalfPlane>(part.shape) ? unbounded_ : order_).push_back(index);
+      const bool is_ground =
+          std::holds_alternative<PlacedHalfPlane>(part.shape) || std::holds_alternative<PlacedTerrain>(part.shape);
+      (is_ground ? ground_ : bounded_).push_back(static_cast<int>(parts_.size()));
       parts_.push_back(std::move(part));
     }
   }
-  bucket_.resize(parts_.size() + 1);
+  boxes_.resize(bounded_.size());
 }
 
 const std::vector<Contact>& ContactFinder::find(const std::vector<Frame>& frames, const std::vector<double>& reach) {
-  for (PlacedPart& part : parts_) {
-    const Frame &frame = frames[part.body], &old = placed_at_[part.body];
-    const bool moved = frame.position != old.position || frame.sin != old.sin || frame.cos != old.cos;
-    if (moved) place(part.shape, frame);
-    part.box = bounding_box(part.shape, reach[part.body]);
-  }
-  placed_at_ = frames;
-
-  find_pairs();
-  sort_pairs();
+  place_parts(frames, reach);
   contacts_.clear();
-  for (const Pair& pair : sorted_pairs_) {
+  find_pairs(reach);
+  sort_pairs();
+  for (const BoxPair& pair : pairs_) {
     const PlacedPart &a = parts_[pair.first], &b = parts_[pair.second];
     points_.clear();
     append_sorted_contacts(a.shape, b.shape, reach[a.body] + reach[b.body], points_);
@@ -46,46 +38,65 @@ const std::vector<Contact>& ContactFinder::find(const std::vector<Frame>& frames
   return contacts_;
 }
 
-// Sweep and prune along x: boxes in the order of their lower x, each against those that begin before it ends.
-void ContactFinder::find_pairs() {
-  pairs_.clear();
-  const auto add = [&](int i, int j) {
-    const PlacedPart &a = parts_[i], &b = parts_[j];
-    if (a.body != b.body && (a.dynamic || b.dynamic)) pairs_.push_back({std::min(i, j), std::max(i, j)});
-  };
-  // By insertion: between two steps the order hardly changes.
-  for (std::size_t i = 1; i < order_.size(); ++i) {
-    const int part = order_[i];
-    std::size_t j = i;
-    for (; j > 0 && parts_[part].box.low.x < parts_[order_[j - 1]].box.low.x; --j) order_[j] = order_[j - 1];
-    order_[j] = part;
+void ContactFinder::place_parts(const std::vector<Frame>& frames, const std::vector<double>& reach) {
+  for (PlacedPart& part : parts_) {
+    const Frame &frame = frames[part.body], &old = placed_at_[part.body];
+    const bool has_moved = frame.position != old.position || frame.sin != old.sin || frame.cos != old.cos;
+    if (has_moved) place(part.shape, frame);
   }
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    const Box& box = parts_[order_[i]].box;
-    for (std::size_t j = i + 1; j < order_.size() && parts_[order_[j]].box.low.x <= box.high.x; ++j) {
-      if (overlap(box, parts_[order_[j]].box)) add(order_[i], order_[j]);
-    }
-  }
-  for (const int i : unbounded_) {
-    for (const int j : order_) add(i, j);
+  placed_at_ = frames;
+  for (std::size_t i = 0; i < bounded_.size(); ++i) {
+    const PlacedPart& part = parts_[bounded_[i]];
+    boxes_[i] = bounding_box(part.shape, reach[part.body]);
   }
 }
 
-// By first and second: buckets by the first, insertion within them.
-void ContactFinder::sort_pairs() {
-  std::fill(bucket_.begin(), bucket_.end(), 0);
-  for (const Pair& pair : pairs_) ++bucket_[pair.first + 1];
-  for (std::size_t i = 1; i < bucket_.size(); ++i) bucket_[i] += bucket_[i - 1];
-  sorted_pairs_.resize(pairs_.size());
-  for (const Pair& pair : pairs_) sorted_pairs_[bucket_[pair.first]++] = pair;
-  for (std::size_t i = 1; i < sorted_pairs_.size(); ++i) {
-    const Pair pair = sorted_pairs_[i];
-    std::size_t j = i;
-    for (; j > 0 && sorted_pairs_[j - 1].first == pair.first && sorted_pairs_[j - 1].second > pair.second; --j) {
-      sorted_pairs_[j] = sorted_pairs_[j - 1];
+void ContactFinder::find_pairs(const std::vector<double>& reach) {
+  unsorted_.clear();
+  const auto add = [&](int i, int j) {
+    const PlacedPart &a = parts_[i], &b = parts_[j];
+    if (a.body != b.body && (a.dynamic || b.dynamic)) unsorted_.push_back({std::min(i, j), std::max(i, j)});
+  };
+  for (const BoxPair& pair : broad_phase_.find(boxes_)) add(bounded_[pair.first], bounded_[pair.second]);
+  for (const int i : ground_) {
+    for (std::size_t k = 0; k < bounded_.size(); ++k) {
+      if (may_touch_ground(parts_[i].shape, reach[parts_[i].body], boxes_[k])) add(i, bounded_[k]);
     }
-    sorted_pairs_[j] = pair;
   }
+}
+
+// By the first body in buckets, then by (second body, first part, second part) in each.
+void ContactFinder::sort_pairs() {
+  bucket_.assign(placed_at_.size() + 1, 0);
+  const auto bucket_of = [&](const BoxPair& pair) { return static_cast<std::size_t>(parts_[pair.first].body); };
+  for (const BoxPair& pair : unsorted_) ++bucket_[bucket_of(pair) + 1];
+  for (std::size_t i = 1; i < bucket_.size(); ++i) bucket_[i] += bucket_[i - 1];
+  pairs_.resize(unsorted_.size());
+  for (const BoxPair& pair : unsorted_) pairs_[bucket_[bucket_of(pair)]++] = pair;
+
+  const auto before = [&](const BoxPair& p, const BoxPair& q) {
+    const int body_p = parts_[p.second].body, body_q = parts_[q.second].body;
+    if (body_p != body_q) return body_p < body_q;
+    return p.first != q.first ? p.first < q.first : p.second < q.second;
+  };
+  auto begin = pairs_.begin();
+  for (std::size_t body = 0; body < placed_at_.size(); ++body) {
+    const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(bucket_[body]);
+    if (!std::is_sorted(begin, end, before)) std::sort(begin, end, before);
+    begin = end;
+  }
+}
+
+// `box` is that of a part and its reach.
+bool ContactFinder::may_touch_ground(const PlacedShape& ground, double reach, const Box& box) const {
+  if (const auto* plane = std::get_if<PlacedHalfPlane>(&ground)) {
+    const Vector2 n = plane->normal;
+    const Vector2 lowest = {n.x > 0.0 ? box.low.x : box.high.x, n.y > 0.0 ? box.low.y : box.high.y};
+    return dot(n, lowest - plane->position) - plane->offset <= reach;
+  }
+  // Bodies are found as deep below terrain as they are long.
+  const double depth = length(box.high - box.low);
+  return overlap(bounding_box(ground, reach + depth), box);
 }
 
 }  // namespace tumble

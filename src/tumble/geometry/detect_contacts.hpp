@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tumble/geometry/broad_phase.hpp"
 #include "tumble/geometry/contact_point.hpp"
 #include "tumble/geometry/placed_shape.hpp"
 #include "tumble/math/pose.hpp"
@@ -30,22 +31,21 @@ class ContactFinder {
     PlacedShape shape;
     int body = 0, part = 0;
     bool dynamic = false;
-    Box box;
-  };
-  // Indices into parts_, first < second.
-  struct Pair {
-    int first = 0, second = 0;
   };
 
-  void find_pairs();
+  void place_parts(const std::vector<Frame>& frames, const std::vector<double>& reach);
+  void find_pairs(const std::vector<double>& reach);
   void sort_pairs();
+  bool may_touch_ground(const PlacedShape& ground, double reach, const Box& box) const;
 
   std::vector<PlacedPart> parts_;  // in the order of (body, part)
   std::vector<Frame> placed_at_;   // of each body
-  std::vector<int> unbounded_;     // parts whose boxes have no end
-  std::vector<int> order_;         // the others by their boxes' lower x, as of the last call
-  std::vector<Pair> pairs_, sorted_pairs_;
-  std::vector<int> bucket_;
+  std::vector<int> ground_;        // half-planes and terrain, which reach deeper than a box can say
+  std::vector<int> bounded_;       // the other parts
+  std::vector<Box> boxes_;         // of these
+  BroadPhase broad_phase_;
+  std::vector<BoxPair> unsorted_, pairs_;  // of parts
+  std::vector<std::size_t> bucket_;        // by body
   std::vector<ContactPoint> points_;
   std::vector<Contact> contacts_;
 };

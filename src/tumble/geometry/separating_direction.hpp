@@ -97,52 +97,67 @@ Separation level_between(const A& a, const B& b, Separation s, Vector2 right, Ve
   return s;
 }
 
-// No more than this is f between two directions: f(m) <= m . x(n) for every m and n, as f is concave in vectors.
-inline double bound_between(const Separation& right, const Separation& left) {
-  const auto largest = [&](Vector2 x) {
+// No more than this is f between two directions: g = f + layer is concave in vectors, so that for every m and n
+// g(m) <= m . (x(n) + layer n).
+inline double bound_between(const Separation& right, const Separation& left, double layer) {
+  const auto largest = [&](const Separation& s) {
+    const Vector2 x = (s.b.point - s.a.point) + layer * s.normal;
     const bool inside = cross(right.normal, x) > 0.0 && cross(x, left.normal) > 0.0;
     return inside ? length(x) : std::max(dot(right.normal, x), dot(left.normal, x));
   };
-  return std::min(largest(right.b.point - right.a.point), largest(left.b.point - left.a.point));
+  return std::min(largest(right), largest(left)) - layer;
 }
 
 // Shapes that overlap deeply may have several maxima. Branch and bound on arcs of directions finds the best of them.
 template <class A, class B>
 class SearchRound {
  public:
-  SearchRound(const A& a, const B& b) : a_(a), b_(b) {}
+  SearchRound(const A& a, const B& b, double layer) : a_(a), b_(b), layer_(layer) {}
 
   Separation search(Vector2 start) {
     std::array<Separation, 4> quarters;
     for (Separation& s : quarters) {
       s = separation_along(a_, b_, start);
-      take(s, best_);
+      take(s);
       start = turned_left(start);
     }
     for (std::size_t i = 0; i < 4; ++i) search_between(quarters[i], quarters[(i + 1) % 4], 0);
-    // Where both are the same maximum, the points at the zero of f' are the right ones.
-    return best_.distance > best_level_.distance + k_round_off * best_.size ? best_ : best_level_;
+    return climbed(best_);
   }
 
  private:
-  static constexpr double k_round_off = 16.0 * std::numeric_limits<double>::epsilon();
   static constexpr double k_negligible = 1e-12;  // relative: of two maxima this close either will do
   static constexpr int k_most_halvings = 60;
 
-  static void take(const Separation& s, Separation& best) {
-    if (s.distance > best.distance) best = s;
+  void take(const Separation& s) {
+    if (s.distance > best_.distance) best_ = s;
+  }
+
+  // The best of all may be a direction close to a maximum, as good as it up to round-off: its points are not those of
+  // the maximum yet. A step beyond it shows where it is.
+  Separation climbed(const Separation& s) const {
+    const double bend = s.a.radius + s.b.radius + s.distance;
+    if (s.slope == 0.0 || !(bend > 0.0)) return s;
+    const Vector2 uphill = s.slope > 0.0 ? turned_left(s.normal) : turned_right(s.normal);
+    // Small at first: next to the normal of a side, the slope is that of another corner.
+    for (double step = std::min(1e-6, 2.0 * std::abs(s.slope) / bend); step < 1.0; step *= 4.0) {
+      const Separation beyond = separation_along(a_, b_, normalized(s.normal + step * uphill));
+      if (beyond.slope * s.slope > 0.0) continue;
+      const Separation &right = s.slope > 0.0 ? s : beyond, &left = s.slope > 0.0 ? beyond : s;
+      return level_between(a_, b_, beyond, right.normal, left.normal);
+    }
+    return s;
   }
 
   void search_between(const Separation& right, const Separation& left, int depth) {
-    const double worth = std::max(best_.distance, best_level_.distance) + k_negligible * right.size;
-    if (depth == k_most_halvings || bound_between(right, left) <= worth) return;
+    const double worth = best_.distance + k_negligible * right.size;
+    if (depth == k_most_halvings || bound_between(right, left, layer_) <= worth) return;
     Separation middle = separation_along(a_, b_, normalized(right.normal + left.normal));
     if (right.slope > 0.0 && left.slope < 0.0) {
       middle = level_between(a_, b_, middle, right.normal, left.normal);
       middle.slope = 0.0;  // what is left of it is round-off
-      take(middle, best_level_);
     }
-    take(middle, best_);
+    take(middle);
     if (!(cross(right.normal, middle.normal) > 0.0 && cross(middle.normal, left.normal) > 0.0)) return;
     search_between(right, middle, depth + 1);
     search_between(middle, left, depth + 1);
@@ -150,7 +165,8 @@ class SearchRound {
 
   const A& a_;
   const B& b_;
-  Separation best_, best_level_;  // over all directions seen, over the zeros of f' among them
+  double layer_;
+  Separation best_;
 };
 
 // The largest separation of two shapes of which at least one is an ellipse.
@@ -166,7 +182,7 @@ Separation largest_separation(const A& a, const B& b, Vector2 guess) {
     constexpr double k_certain = 0.999;  // away from the depth where there may be a second maximum
     if (s.distance > -k_certain * layer) return s;
   }
-  return SearchRound(a, b).search(guess);
+  return SearchRound(a, b, layer).search(guess);
 }
 
 }  // namespace tumble
