@@ -29,4 +29,5 @@
 #include "tumble/math/vector2.hpp"
 #include "tumble/scene/limits.hpp"
 #include "tumble/scene/scene.hpp"
+#include "tumble/scene/scene_toml.hpp"
 #include "tumble/scene/shape.hpp"

@@ -31,6 +31,8 @@ inline constexpr Range k_damping_range = {0.0, 1e9, "1/s"};
 inline constexpr Range k_friction_range = {0.0, 1e6, ""};
 inline constexpr Range k_restitution_range = {0.0, 1.0, ""};
 
+// Of the length of a half-plane's normal: the rounding of a length of 1, and some more for one that was turned.
+inline constexpr double k_unit_length_tolerance = 1e-14;
 inline constexpr double k_max_ellipse_ratio = 1e6;  // of the longer semi-axis to the shorter one
 
 inline constexpr std::size_t k_max_vertices = 1000;  // of one polygon
@@ -40,7 +42,11 @@ inline constexpr std::size_t k_max_bodies = 100'000;
 inline constexpr std::size_t k_max_materials = 1000;
 inline constexpr std::size_t k_max_pairs = 10'000;
 inline constexpr std::size_t k_max_table_entries = 100'000;  // knots or wrenches of one body
+inline constexpr std::size_t k_max_entries = 5'000'000;      // vertices, points, parts, knots, wrenches of all bodies
 inline constexpr std::size_t k_max_name_bytes = 100;
 inline constexpr std::size_t k_max_title_bytes = 1000;
+
+inline constexpr std::size_t k_max_scene_bytes = std::size_t{64} << 20;  // of a file
+inline constexpr std::size_t k_max_scene_values = 4'000'000;             // in a file
 
 }  // namespace tumble

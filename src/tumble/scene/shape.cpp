@@ -20,8 +20,6 @@ constexpr double k_pi = 3.14159265358979323846;
 constexpr double k_least_turn = 1e-9;
 // An edge shorter than this times the largest coordinate keeps less than 7 digits of its direction.
 constexpr double k_least_edge = 1e-9;
-// Twice the rounding of a length of 1, and some more for a normal that was turned a few times.
-constexpr double k_unit_length_tolerance = 1e-14;
 
 [[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
 
