@@ -1,8 +1,12 @@
 // All public headers.
 #pragma once
 
+#include "tumble/contact/island_solver.hpp"
+#include "tumble/contact/restitution.hpp"
 #include "tumble/drop/drop.hpp"
 #include "tumble/drop/parameters.hpp"
+#include "tumble/geometry/contact_point.hpp"
+#include "tumble/geometry/shape_contacts.hpp"
 #include "tumble/lcp/contact_motions.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/lcp/dantzig.hpp"
@@ -23,5 +27,15 @@
 #include "tumble/lcp/solution_face.hpp"
 #include "tumble/lcp/solve.hpp"
 #include "tumble/lcp/solve_contacts.hpp"
+#include "tumble/math/pose.hpp"
 #include "tumble/math/sin_cos.hpp"
 #include "tumble/math/vector.hpp"
+#include "tumble/math/vector2.hpp"
+#include "tumble/scene/limits.hpp"
+#include "tumble/scene/scene.hpp"
+#include "tumble/scene/shape.hpp"
+#include "tumble/step/state.hpp"
+#include "tumble/step/step_report.hpp"
+#include "tumble/step/time_step.hpp"
+#include "tumble/trajectory/simulate.hpp"
+#include "tumble/trajectory/trajectory.hpp"

@@ -1,7 +1,7 @@
 // The rows of a contact in the Jacobians J_n, J_t.
 #pragma once
 
-#include "tumble/geometry/detect_contacts.hpp"
+#include "tumble/geometry/contact_point.hpp"
 #include "tumble/lcp/contact_system.hpp"
 
 namespace tumble {

@@ -17,10 +17,6 @@ constexpr double k_energy_round_off = 1e-12;
 // [-] of the way that a contact can go in a step: a gap below is closed.
 constexpr double k_gap_round_off = 1e-12;
 
-Vector3 plus(const Vector3& a, double s, const Vector3& b) {
-  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
-}
-
 struct Island {
   Parts& parts;
   IslandContacts contacts;

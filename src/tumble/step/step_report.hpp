@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tumble/geometry/detect_contacts.hpp"
+#include "tumble/geometry/contact_point.hpp"
 #include "tumble/lcp/one_contact.hpp"
 #include "tumble/lcp/result.hpp"
 #include "tumble/scene/scene.hpp"
