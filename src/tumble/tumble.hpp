@@ -1,8 +1,12 @@
 // All public headers.
 #pragma once
 
+#include "tumble/contact/island_solver.hpp"
+#include "tumble/contact/restitution.hpp"
 #include "tumble/drop/drop.hpp"
 #include "tumble/drop/parameters.hpp"
+#include "tumble/geometry/contact_point.hpp"
+#include "tumble/geometry/shape_contacts.hpp"
 #include "tumble/lcp/contact_motions.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/lcp/dantzig.hpp"
@@ -31,3 +35,8 @@
 #include "tumble/scene/scene.hpp"
 #include "tumble/scene/scene_toml.hpp"
 #include "tumble/scene/shape.hpp"
+#include "tumble/step/state.hpp"
+#include "tumble/step/step_report.hpp"
+#include "tumble/step/time_step.hpp"
+#include "tumble/trajectory/simulate.hpp"
+#include "tumble/trajectory/trajectory.hpp"
