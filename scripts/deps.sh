@@ -13,8 +13,9 @@ packages_of() {
                 clang-14 libclang-rt-14-dev clang-format-14 git" ;;
     bench) echo "libbenchmark-dev" ;;
     bench-lcp) echo "libsiconos-numerics-dev libbullet-dev libdart-dev libfclib-dev" ;;
+    bench-scenes) echo "libbox2d-dev libchipmunk-dev" ;;
     fuzz) echo "clang-14 libclang-rt-14-dev" ;;
-    *) echo "deps.sh: unknown set '$1'; sets: build python test bench bench-lcp fuzz" >&2; exit 2 ;;
+    *) echo "deps.sh: unknown set '$1'; sets: build python test bench bench-lcp bench-scenes fuzz" >&2; exit 2 ;;
   esac
 }
 

@@ -10,8 +10,8 @@
 
 #include "../lcp/progress.hpp"
 #include "engine.hpp"
-#include "measure.hpp"
-#include "table.hpp"
+#include "measure_engines.hpp"
+#include "results_table.hpp"
 #include "worlds.hpp"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

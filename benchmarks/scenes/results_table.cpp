@@ -1,4 +1,4 @@
-#include "table.hpp"
+#include "results_table.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "measure.hpp"
+#include "measure_engines.hpp"
 
 namespace tumble::bench {
 

@@ -1,4 +1,4 @@
-#include "measure.hpp"
+#include "measure_engines.hpp"
 
 #include <algorithm>
 #include <cmath>
