@@ -1,16 +1,19 @@
 // The rows of a contact in the Jacobians J_n, J_t.
 #pragma once
 
+#include <cmath>
+
 #include "tumble/geometry/contact_point.hpp"
 #include "tumble/lcp/contact_system.hpp"
 
 namespace tumble {
 
-// Where the impulse acts: on the surface of the body that moves if one alone does, so that a corner's velocity is its
-// own while it is still above the ground; half-way between two that move, so that angular momentum is conserved.
-inline Vector2 contact_place(const Contact& contact, bool a_moves, bool b_moves) {
-  if (a_moves && b_moves) return 0.5 * (contact.point_a + contact.point_b);
-  return a_moves ? contact.point_a : contact.point_b;
+// Where the impulse acts: on the flat one of the two surfaces, so that all contacts on one side lie on one line; where
+// none is flat, half-way between them. One place for both bodies: angular momentum is conserved.
+inline Vector2 contact_place(const Contact& contact) {
+  if (std::isinf(contact.radius_a)) return contact.point_a;
+  if (std::isinf(contact.radius_b)) return contact.point_b;
+  return 0.5 * (contact.point_a + contact.point_b);
 }
 
 // J_n and J_t of the bodies at (frame origins) centre_a, centre_b, r = contact_place - centre:

@@ -13,12 +13,12 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_accepted_residual = 1e-10;
-constexpr int k_sweeps_per_round = 5;
-constexpr int k_rounds = 10;                 // of sweeps and a solve
-constexpr int k_more_rounds = 60;            // where there is no other way
-constexpr double k_rest_residual = 1e-15;    // what is left is round-off: nothing to improve
-constexpr int k_max_path_steps = 20;         // and 2 per contact
-constexpr int k_max_rounds = 15;             // where Newton gets there, it does so in a few
+constexpr double k_rest_residual = 1e-15;  // what is left is round-off: nothing to improve
+constexpr int k_max_path_steps = 20;       // and 2 per contact
+constexpr int k_num_sweeps = 10;
+constexpr int k_max_soft_rounds = 8;
+constexpr double k_hard_ridge = 1e-4;        // [-] as hard as rigid for most
+constexpr int k_max_rounds = 8;              // where Newton gets there, it does so in a few
 constexpr Index k_max_dense_contacts = 120;  // above, the dense LCP takes longer than a step is worth
 
 }  // namespace
@@ -30,10 +30,6 @@ struct IslandSolver::Parts {
   std::vector<double> best_impulses;
   double best_residual = 0.0;
   std::vector<double> start_impulses;
-  std::vector<ContactMode> swept_modes;
-  std::vector<double> swept_impulses;
-
-  bool offer_if_solved(double residual) { return residual <= k_accepted_residual && offer(); }
 
   // Keeps what is better than all before. True if it is good enough.
   bool offer() {
@@ -48,25 +44,31 @@ struct IslandSolver::Parts {
 
   bool run() { return modes.run(k_max_rounds) && offer(); }
 
-  // Sweeps find the modes, one linear solve in these modes what sweeps would take long for, and so on [Silcowitz 2010].
-  bool sweep_and_solve(int max_rounds) {
-    modes.sweep(k_sweeps_per_round);
-    double residual = modes.residual();
-    for (int round = 0; round < max_rounds; ++round) {
-      swept_modes = modes.modes;
-      swept_impulses = modes.impulses;
-      if (modes.run(1)) return offer();
+  // Contacts that give way a little have modes that are easy to find: Newton's method finds them, or else the path.
+  // Then they are made harder, each problem a good start for the next one, until the modes are those of rigid contacts.
+  bool harden() {
+    modes.sweep(k_num_sweeps);
+    for (const double ridge : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
+      if (!solve_soft(ridge)) return false;
+      if (ridge > k_hard_ridge) continue;
+      const std::vector<ContactMode> soft_modes = modes.modes;
+      const std::vector<double> soft_impulses = modes.impulses;
       modes.project();
-      const double after = modes.residual();
-      if (!(after < residual)) {
-        modes.modes = swept_modes;
-        modes.impulses = swept_impulses;
-      }
-      modes.sweep(k_sweeps_per_round);
-      residual = modes.residual();
-      if (offer_if_solved(residual)) return true;
+      if (run()) return true;
+      modes.modes = soft_modes;
+      modes.impulses = soft_impulses;
     }
     return false;
+  }
+
+  bool solve_soft(double ridge) {
+    const std::vector<ContactMode> old_modes = modes.modes;
+    const std::vector<double> old_impulses = modes.impulses;
+    std::fill(modes.impulses.begin(), modes.impulses.end(), 0.0);
+    if (modes.run_near(ridge, k_max_soft_rounds)) return true;
+    modes.modes = old_modes;
+    modes.impulses = old_impulses;
+    return modes.follow(k_max_path_steps + 2 * static_cast<int>(old_modes.size()), ridge);
   }
 
   // By the general solver, which finds all that has a solution, but not as fast.
@@ -106,13 +108,12 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
     parts_->best_impulses = search.impulses;
     parts_->best_residual = search.residual();
   } else if (parts_->best_residual > k_rest_residual && !parts_->run()) {
-    const bool has_dense = system.contacts.size() <= k_max_dense_contacts;
     search.modes = modes;
     search.impulses = parts_->start_impulses;
-    if (!parts_->sweep_and_solve(has_dense ? k_rounds : k_more_rounds)) {
+    if (!parts_->harden()) {
       status = LcpStatus::iteration_limit;
       parts_->offer();
-      if (has_dense) status = parts_->search_dense(system);
+      if (system.contacts.size() <= k_max_dense_contacts) status = parts_->search_dense(system);
     }
   }
   search.impulses = parts_->best_impulses;

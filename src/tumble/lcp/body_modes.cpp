@@ -355,7 +355,7 @@ int BodyModes::change_modes() {
   return num_changes;
 }
 
-// Two steps of the method of multipliers from no impulses: the digits that a path needs.
+// Of contacts that give way, u + ridge diag(A) f in place of u.
 void BodyModes::respond(const std::vector<Vector3>* before, const std::vector<Pair>& offsets, Response& response) {
   const Index num_contacts = modes.size();
   response.f.assign(2 * num_contacts, 0.0);
@@ -381,7 +381,13 @@ void BodyModes::respond(const std::vector<Vector3>* before, const std::vector<Pa
       response.u[i][0] += dot(normal, response.v[b]);
       response.u[i][1] += dot(tangent, response.v[b]);
     });
-    if (round == 2) return;
+    if (round == 1) {
+      for (Index i = 0; i < num_contacts; ++i) {
+        response.u[i][0] += ridge_ * response_[i].nn * response.f[2 * i];
+        response.u[i][1] += ridge_ * response_[i].tt * response.f[2 * i + 1];
+      }
+      return;
+    }
     step_.assign(mass_.size(), Vector3{});
     const auto lean = [&](Index i) { return -slip_direction(modes[i]) * system_->contacts[i].friction; };
     visit([&](Index i, Index b, const Vector3& normal, const Vector3& tangent) {
@@ -489,7 +495,10 @@ bool BodyModes::follow(int max_steps, double ridge) {
         }
       }
     }
-    if (next == modes.size()) return sign < 0.0;
+    if (next == modes.size()) {
+      if (sign < 0.0) impulses = here_.f;
+      return sign < 0.0;
+    }
     lambda += sign * step;
     const ContactMode from = modes[next];
     modes[next] = next_mode(next, next_condition, here_.u[next][1] + lambda * slope_.u[next][1]);

@@ -249,6 +249,12 @@ struct Island {
 
 IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const StepSettings& settings) {
   Island island{parts, contacts, h, settings, {}};
+  for (const int i : contacts) {
+    StepContact& c = island.at(i);
+    c.is_static = c.has_stuck && c.law->static_friction > c.law->friction;
+    c.friction = c.is_static ? c.law->static_friction : c.law->friction;
+    c.restitution = 0.0;
+  }
   if (island.is_free()) {
     for (const int i : contacts) {
       island.at(i).mode = ContactMode::open;

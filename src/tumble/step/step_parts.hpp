@@ -23,15 +23,26 @@ struct StepContact {
   std::array<double, 2> free_speed{};  // at its end, were there no contacts
   double gap = 0.0;                    // [m] what may close during the step: 0 where the bodies overlap
   double bounce = 0.0;                 // [m/s] speed of separation, if the gap closes
-  double friction = 0.0;               // kinetic, or static for what stuck in the last step
-  bool is_static = false;              // friction is the static one, and that is larger
+  bool has_stuck = false;              // in the last step: static friction may hold it
+  bool is_listed = false;              // in an island: it may be touched in this step
+  bool is_new = false;                 // there, since the islands were last solved
   // Of the LCP being solved, and what came out.
   bool is_included = true;
+  double friction = 0.0;                 // kinetic, or static
+  bool is_static = false;                // friction is the static one, and that is larger
   double offset = 0.0;                   // of u_n
   ContactMode mode = ContactMode::open;  // in: where to start
   std::array<double, 2> impulse{};       // in: where to start
   std::array<double, 2> speed_after{};
   double restitution = 0.0;  // that was at work
+};
+
+struct IslandOutcome {
+  LcpStatus status = LcpStatus::solved;
+  double residual = 0.0;
+  int factorisations = 0;
+  bool is_at_work = false;  // some contact was touched
+  double created = 0.0;     // [J], above round-off
 };
 
 struct StepWorkspace::Parts {
@@ -57,24 +68,17 @@ struct StepWorkspace::Parts {
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
-  std::vector<int> parent;          // union-find over bodies
-  std::vector<int> island_of;       // root body -> island
-  std::vector<int> island_begin;    // islands + 1
-  std::vector<int> island_contact;  // indices into contacts
+  std::vector<int> parent;             // union-find over bodies
+  std::vector<int> island_of;          // root body -> island
+  std::vector<int> island_begin;       // islands + 1
+  std::vector<int> island_contact;     // indices into contacts
+  std::vector<IslandOutcome> outcome;  // of an island, at the index of its first contact
   IslandSolver solver;
   std::vector<int> local_body, island_body;
   std::vector<Vector3> way_velocity;  // of the LCP for the way
 };
 
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
-
-struct IslandOutcome {
-  LcpStatus status = LcpStatus::solved;
-  double residual = 0.0;
-  int factorisations = 0;
-  bool is_at_work = false;  // some contact was touched
-  double created = 0.0;     // [J], above round-off
-};
 
 // Velocities and travel of the bodies of one island, impulses and modes of its contacts.
 IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, double step_size,

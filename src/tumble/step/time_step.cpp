@@ -137,6 +137,20 @@ bool is_before(const ContactMemory& memory, const Contact& contact) {
   return key(memory) < key(contact);
 }
 
+// Contacts of one pair of sides share one line of friction: their tangents are those of the first, whose place is on a
+// flat side if there is one. With lines that differ by the tilt of two sides, however small, rigid bodies could jam on
+// them with forces as large as the tilt is small; on one line they cannot, and where both contacts are closed there is
+// no tilt.
+void share_friction_line(const StepContact& first, StepContact& second) {
+  constexpr double nearly_parallel = 0.99;  // cosine
+  const Contact &c = first.contact, &d = second.contact;
+  const bool is_same_pair =
+      c.body_a == d.body_a && c.body_b == d.body_b && c.part_a == d.part_a && c.part_b == d.part_b;
+  if (!is_same_pair || dot(c.normal, d.normal) < nearly_parallel) return;
+  second.rows.tangent_a = first.rows.tangent_a;
+  second.rows.tangent_b = first.rows.tangent_b;
+}
+
 // The contacts in reach, with what is known of them before anything is solved.
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   const std::vector<Contact>& found = parts.finder.find(parts.frames, parts.reach);
@@ -148,9 +162,9 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     c.contact = found[i];
     c.law = &law_of(scene, parts, c.contact);
     const auto a = static_cast<Index>(c.contact.body_a), b = static_cast<Index>(c.contact.body_b);
-    const Vector2 place =
-        contact_place(c.contact, is_dynamic(scene, c.contact.body_a), is_dynamic(scene, c.contact.body_b));
+    const Vector2 place = contact_place(c.contact);
     c.rows = contact_rows(c.contact, place, parts.frames[a].position, parts.frames[b].position);
+    if (i > 0) share_friction_line(parts.contacts[i - 1], c);
     add_offsets(scene, parts, c);
     c.speed = contact_velocity(c.rows, parts.velocity);
     c.free_speed = contact_velocity(c.rows, parts.free_velocity);
@@ -169,10 +183,12 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     } else if (c.free_speed[0] + c.gap / h < 0.0) {
       c.mode = ContactMode::stick;
     }
-    const bool has_stuck = is_known ? c.mode == ContactMode::stick : c.speed[1] == 0.0;
-    c.is_static = has_stuck && c.law->static_friction > c.law->friction;
-    c.friction = c.is_static ? c.law->static_friction : c.law->friction;
+    c.has_stuck = is_known ? c.mode == ContactMode::stick : c.speed[1] == 0.0;
+    // Other contacts may push bodies together: those that they reach are listed then.
+    c.is_listed = c.is_new =
+        is_known || c.gap + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
   }
+  parts.outcome.assign(found.size(), {});
 }
 
 int root_of(std::vector<int>& parent, int body) {
@@ -188,20 +204,26 @@ int root_of(std::vector<int>& parent, int body) {
 void find_islands(Parts& parts) {
   const auto body_of = [](const StepContact& c) { return c.rows.body_a >= 0 ? c.rows.body_a : c.rows.body_b; };
   for (const StepContact& c : parts.contacts) {
+    if (!c.is_listed) continue;
     for (const int body : {c.rows.body_a, c.rows.body_b}) {
       if (body >= 0) parts.parent[static_cast<Index>(body)] = body;
     }
   }
   for (const StepContact& c : parts.contacts) {
-    if (c.rows.body_a < 0 || c.rows.body_b < 0) continue;
+    if (!c.is_listed || c.rows.body_a < 0 || c.rows.body_b < 0) continue;
     const int a = root_of(parts.parent, c.rows.body_a), b = root_of(parts.parent, c.rows.body_b);
     parts.parent[static_cast<Index>(std::max(a, b))] = std::min(a, b);
   }
-  parts.island_begin.assign(1, 0);
-  for (const StepContact& c : parts.contacts)
-    parts.island_of[static_cast<Index>(root_of(parts.parent, body_of(c)))] = -1;
+  const auto island_of = [&](const StepContact& c) -> int& {
+    return parts.island_of[static_cast<Index>(root_of(parts.parent, body_of(c)))];
+  };
   for (const StepContact& c : parts.contacts) {
-    int& island = parts.island_of[static_cast<Index>(root_of(parts.parent, body_of(c)))];
+    if (c.is_listed) island_of(c) = -1;
+  }
+  parts.island_begin.assign(1, 0);
+  for (const StepContact& c : parts.contacts) {
+    if (!c.is_listed) continue;
+    int& island = island_of(c);
     if (island < 0) {
       island = static_cast<int>(parts.island_begin.size()) - 1;
       parts.island_begin.push_back(0);
@@ -209,16 +231,49 @@ void find_islands(Parts& parts) {
     ++parts.island_begin[static_cast<Index>(island) + 1];
   }
   for (Index i = 1; i < parts.island_begin.size(); ++i) parts.island_begin[i] += parts.island_begin[i - 1];
-  parts.island_contact.resize(parts.contacts.size());
+  const int num_listed = parts.island_begin.back();
+  parts.island_contact.resize(static_cast<Index>(num_listed));
   for (Index i = parts.contacts.size(); i-- > 0;) {
-    const int island = parts.island_of[static_cast<Index>(root_of(parts.parent, body_of(parts.contacts[i])))];
+    if (!parts.contacts[i].is_listed) continue;
     // Filled from the end, so that begin moves down to where the island begins.
-    parts.island_contact[static_cast<Index>(--parts.island_begin[static_cast<Index>(island) + 1])] =
-        static_cast<int>(i);
+    int& next = parts.island_begin[static_cast<Index>(island_of(parts.contacts[i])) + 1];
+    parts.island_contact[static_cast<Index>(--next)] = static_cast<int>(i);
   }
   // Every begin has moved to the one before: move them back.
   parts.island_begin.erase(parts.island_begin.begin());
-  parts.island_begin.push_back(static_cast<int>(parts.contacts.size()));
+  parts.island_begin.push_back(num_listed);
+}
+
+// Lists contacts that the motion found would overrun. False if there are none.
+bool list_overrun(double h, Parts& parts) {
+  constexpr double round_off = 1e-12;  // [-] of the way
+  bool has_new = false;
+  for (StepContact& c : parts.contacts) {
+    if (c.is_listed) continue;
+    double gap = c.gap + h * c.rows.offset;
+    if (c.rows.body_a >= 0) gap += dot(c.rows.normal_a, parts.travel[static_cast<Index>(c.rows.body_a)]);
+    if (c.rows.body_b >= 0) gap += dot(c.rows.normal_b, parts.travel[static_cast<Index>(c.rows.body_b)]);
+    if (gap >= -round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])))) continue;
+    c.is_listed = c.is_new = has_new = true;
+  }
+  return has_new;
+}
+
+// The motion of all islands. Those whose contacts stay the same keep theirs.
+void step_islands(double h, const StepSettings& settings, Parts& parts) {
+  do {
+    find_islands(parts);
+    for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
+      const auto begin = static_cast<Index>(parts.island_begin[i]), end = static_cast<Index>(parts.island_begin[i + 1]);
+      const IslandContacts contacts = IslandContacts(parts.island_contact).subspan(begin, end - begin);
+      bool is_new = false;
+      for (const int c : contacts) {
+        is_new = is_new || parts.contacts[static_cast<Index>(c)].is_new;
+        parts.contacts[static_cast<Index>(c)].is_new = false;
+      }
+      if (is_new) parts.outcome[static_cast<Index>(contacts.front())] = step_island(parts, contacts, h, settings);
+    }
+  } while (list_overrun(h, parts));
 }
 
 // True if no body went further than its contacts were looked for; else they are looked for further away.
@@ -235,10 +290,15 @@ bool is_within_reach(const Scene& scene, Parts& parts) {
   return is_within;
 }
 
-void fill_report(const Scene& scene, double h, const State& state, const Parts& parts, StepReport& report) {
+void fill_report(const Scene& scene, double h, const State& state, Parts& parts, StepReport& report) {
   EnergyLedger& energy = report.energy;
   report.contacts.clear();
-  for (const StepContact& c : parts.contacts) {
+  for (StepContact& c : parts.contacts) {
+    if (!c.is_listed) {
+      c.speed_after = contact_velocity(c.rows, parts.next_velocity);
+      c.mode = ContactMode::open;
+      c.impulse = {};
+    }
     report.contacts.push_back({c.contact, *c.law, c.speed[0], c.speed[1], c.speed_after[0], c.speed_after[1],
                                c.impulse[0], c.impulse[1], c.restitution, c.mode});
     if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
@@ -311,30 +371,27 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   check(scene, h, state);
   validate(settings);
   Parts& parts = workspace.parts();
-  IslandOutcome worst;
-  int num_islands = 0;
   predict(scene, h, state, parts);
   for (int look = 1;; ++look) {
     prepare_contacts(scene, h, state, parts);
-    find_islands(parts);
-    worst = {};
-    num_islands = 0;
-    for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
-      const auto begin = static_cast<Index>(parts.island_begin[i]), end = static_cast<Index>(parts.island_begin[i + 1]);
-      const IslandOutcome outcome =
-          step_island(parts, IslandContacts(parts.island_contact).subspan(begin, end - begin), h, settings);
-      if (outcome.status != LcpStatus::solved) worst.status = outcome.status;
-      worst.residual = std::max(worst.residual, outcome.residual);
-      worst.factorisations += outcome.factorisations;
-      worst.created += outcome.created;
-      num_islands += outcome.is_at_work ? 1 : 0;
-    }
+    step_islands(h, settings, parts);
     if (is_within_reach(scene, parts) || look == k_max_looks) break;
     for (Index i = 0; i < scene.bodies.size(); ++i) {
       if (scene.bodies[i].kind != BodyKind::dynamic) continue;
       parts.next_velocity[i] = parts.free_velocity[i];
       for (Index j = 0; j < 3; ++j) parts.travel[i][j] = h * parts.middle_velocity[i][j];
     }
+  }
+  IslandOutcome worst;
+  int num_islands = 0;
+  for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
+    const int first = parts.island_contact[static_cast<Index>(parts.island_begin[i])];
+    const IslandOutcome& outcome = parts.outcome[static_cast<Index>(first)];
+    if (outcome.status != LcpStatus::solved) worst.status = outcome.status;
+    worst.residual = std::max(worst.residual, outcome.residual);
+    worst.factorisations += outcome.factorisations;
+    worst.created += outcome.created;
+    num_islands += outcome.is_at_work ? 1 : 0;
   }
 
   state.time += h;
@@ -352,7 +409,7 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   }
   state.contacts.clear();
   for (const StepContact& c : parts.contacts) {
-    if (c.mode == ContactMode::open) continue;
+    if (!c.is_listed || c.mode == ContactMode::open) continue;
     const Contact& k = c.contact;
     state.contacts.push_back({k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.impulse[0], c.impulse[1]});
   }
