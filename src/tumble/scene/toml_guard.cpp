@@ -10,6 +10,7 @@ namespace tumble {
 namespace {
 
 constexpr int k_max_key_parts = 16;
+constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF";  // as some editors put in front
 
 // Goes through the text character by character and knows what is inside of strings and comments.
 class Guard {
@@ -17,12 +18,17 @@ class Guard {
   Guard(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   void check() {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // the byte order mark that some editors put in front
+    if (text_.starts_with(k_byte_order_mark)) at_ = k_byte_order_mark.size();
+    const std::size_t first = at_;
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '#') {
         skip_comment();
       } else if (c == '"' || c == '\'') {
+        // Behind anything else toml++ takes the quote for a part of that, and what follows for no string.
+        if (at_ > first && std::string_view(" \t\n=,[{.").find(text_[at_ - 1]) == std::string_view::npos) {
+          refuse("a string must not stand right behind other text");
+        }
         is_line_start_ = false;
         skip_string(c);
       } else {
