@@ -3,35 +3,11 @@
 #include <random>
 #include <vector>
 
+#include "shapes_at_random.hpp"
 #include <gtest/gtest.h>
 
-#include "tumble/geometry/detect_contacts.hpp"
-#include "tumble/geometry/shape_contacts.hpp"
-
-namespace tumble {
+namespace tumble::test {
 namespace {
-
-constexpr double k_tolerance = 1e-12;  // relative to the size of the shapes, which is about 1
-
-RoundedPolygon box(double width, double height, double rounding = 0.0) {
-  const double x = width / 2, y = height / 2;
-  return {{{-x, -y}, {x, -y}, {x, y}, {-x, y}}, rounding};
-}
-
-Frame frame(double x, double y, double angle) { return frame_of({{x, y}, angle}); }
-
-std::vector<ContactPoint> contacts_of(const Shape& a, const Frame& fa, const Shape& b, const Frame& fb,
-                                      double reach = INFINITY) {
-  std::vector<ContactPoint> contacts;
-  find_contacts(a, fa, b, fb, reach, contacts);
-  return contacts;
-}
-
-double smallest_gap(const std::vector<ContactPoint>& contacts) {
-  double gap = INFINITY;
-  for (const ContactPoint& c : contacts) gap = std::min(gap, c.gap);
-  return gap;
-}
 
 double distance_to_segment(Vector2 p, Vector2 from, Vector2 to) {
   const Vector2 side = to - from;
@@ -85,31 +61,6 @@ double core_distance(const std::vector<Vector2>& a, const std::vector<Vector2>& 
   return overlap ? std::max(least_depth(a, b), least_depth(b, a)) : distance;
 }
 
-RoundedPolygon random_polygon(std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  RoundedPolygon shape;
-  const int corners = 1 + static_cast<int>(random() % 7);
-  const double phase = 6.3 * unit(random), radius = 0.1 + 0.9 * unit(random);
-  for (int i = 0; i < corners; ++i) {
-    const SinCos turn = sin_cos(phase + 6.283185307179586 * (i + 0.6 * unit(random)) / corners);
-    shape.vertices.push_back({radius * turn.cos, radius * turn.sin});
-  }
-  if (random() % 2 || corners == 1) shape.rounding = 0.3 * unit(random);
-  return shape;
-}
-
-Frame random_frame(std::mt19937& random, double spread) {
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  return frame(spread * unit(random), spread * unit(random), 10 * unit(random));
-}
-
-void expect_whole(const ContactPoint& c) {
-  EXPECT_NEAR(length(c.normal), 1.0, k_tolerance);
-  const Vector2 between = c.point_b - c.point_a;
-  EXPECT_NEAR(between.x, c.gap * c.normal.x, 4 * k_tolerance);
-  EXPECT_NEAR(between.y, c.gap * c.normal.y, 4 * k_tolerance);
-}
-
 TEST(PolygonContacts, RandomPairsHaveTheDistanceOfABruteForce) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 100000; ++trial) {
@@ -121,19 +72,6 @@ TEST(PolygonContacts, RandomPairsHaveTheDistanceOfABruteForce) {
     ASSERT_NEAR(smallest_gap(contacts), expected, k_tolerance) << trial;
     for (const ContactPoint& c : contacts) expect_whole(c);
     if (testing::Test::HasFailure()) FAIL() << trial;
-  }
-}
-
-bool same_bits(const ContactPoint& c, const ContactPoint& d) {
-  return c.normal == -d.normal && c.point_a == d.point_b && c.point_b == d.point_a && c.gap == d.gap &&
-         c.radius_a == d.radius_b && c.radius_b == d.radius_a && c.feature == (d.feature << 16 | d.feature >> 16);
-}
-
-void expect_symmetric(const Shape& a, const Frame& fa, const Shape& b, const Frame& fb) {
-  const auto forth = contacts_of(a, fa, b, fb), back = contacts_of(b, fb, a, fa);
-  ASSERT_EQ(forth.size(), back.size());
-  for (const ContactPoint& c : forth) {
-    EXPECT_TRUE(std::any_of(back.begin(), back.end(), [&](const ContactPoint& d) { return same_bits(c, d); }));
   }
 }
 
@@ -234,4 +172,4 @@ TEST(PolygonContacts, MirroringOneBodyOnAHalfPlaneMirrorsTheBits) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::test

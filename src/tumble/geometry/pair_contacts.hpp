@@ -14,6 +14,11 @@ using ContactPoints = std::vector<ContactPoint>;
 
 void append_contacts(const PlacedPolygon& a, const PlacedPolygon& b, double reach, ContactPoints& contacts);
 void append_contacts(const PlacedPolygon& a, const PlacedHalfPlane& b, double reach, ContactPoints& contacts);
+void append_contacts(const PlacedEllipse& a, const PlacedEllipse& b, double reach, ContactPoints& contacts);
+void append_contacts(const PlacedEllipse& a, const PlacedPolygon& b, double reach, ContactPoints& contacts);
+void append_contacts(const PlacedEllipse& a, const PlacedHalfPlane& b, double reach, ContactPoints& contacts);
+void append_contacts(const PlacedPolygon& a, const PlacedTerrain& b, double reach, ContactPoints& contacts);
+void append_contacts(const PlacedEllipse& a, const PlacedTerrain& b, double reach, ContactPoints& contacts);
 
 // Of any two shapes, sorted by feature.
 void append_sorted_contacts(const PlacedShape& a, const PlacedShape& b, double reach, ContactPoints& contacts);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <type_traits>
 
 namespace tumble {
 namespace {
@@ -17,7 +17,14 @@ Box moved_box(Vector2 position, Vector2 low, Vector2 high, double margin) {
   return {{position.x + (low.x - m), position.y + (low.y - m)}, {position.x + (high.x + m), position.y + (high.y + m)}};
 }
 
-Box box_of(const PlacedPolygon& shape, double margin) {
+Box united(const Box& a, const Box& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+}  // namespace
+
+Box bounding_box(const PlacedPolygon& shape, double margin) {
   Vector2 low = shape.corners[0].vertex, high = low;
   for (const PlacedPolygon::Corner& corner : shape.corners) {
     low = {std::min(low.x, corner.vertex.x), std::min(low.y, corner.vertex.y)};
@@ -26,12 +33,22 @@ Box box_of(const PlacedPolygon& shape, double margin) {
   return moved_box(shape.position, low, high, margin + shape.rounding);
 }
 
-Box box_of(const PlacedHalfPlane&, double) {
+Box bounding_box(const PlacedTerrain& shape, double margin) {
+  Box box = shape.blocks[0];
+  for (const Box& block : shape.blocks) box = united(box, block);
+  return moved_box(shape.position, box.low, box.high, margin);
+}
+
+Box bounding_box(const PlacedEllipse& shape, double margin) {
+  const double p = shape.semi_axis_x, q = shape.semi_axis_y;
+  const Vector2 half = {length({p * shape.axis.x, q * shape.axis.y}), length({p * shape.axis.y, q * shape.axis.x})};
+  return moved_box(shape.position, shape.centre - half, shape.centre + half, margin);
+}
+
+Box bounding_box(const PlacedHalfPlane&, double) {
   constexpr double k_infinity = std::numeric_limits<double>::infinity();
   return {{-k_infinity, -k_infinity}, {k_infinity, k_infinity}};
 }
-
-}  // namespace
 
 PlacedPolygon::PlacedPolygon(const RoundedPolygon& shape) : rounding(shape.rounding) {
   const std::size_t n = shape.vertices.size();
@@ -46,10 +63,40 @@ PlacedPolygon::PlacedPolygon(const RoundedPolygon& shape) : rounding(shape.round
   corners = local;
 }
 
+PlacedEllipse::PlacedEllipse(const Ellipse& shape)
+    : semi_axis_x(shape.semi_axis_x),
+      semi_axis_y(shape.semi_axis_y),
+      centre(shape.pose.position),
+      local(frame_of(shape.pose)) {
+  axis = {local.cos, local.sin};
+}
+
+PlacedTerrain::PlacedTerrain(const Terrain& shape) {
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    Point point{shape.points[i], {}, 0.0};
+    if (i + 1 < shape.points.size()) {
+      const Vector2 run = shape.points[i + 1] - shape.points[i];
+      point.length = tumble::length(run);
+      point.normal = turned_left((1.0 / point.length) * run);
+    } else {
+      point.normal = local.back().normal;
+    }
+    local.push_back(point);
+  }
+  points = local;
+  blocks.resize((local.size() - 1 + k_block - 1) / k_block);
+}
+
 PlacedShape placed_shape(const Shape& shape) {
-  if (const auto* polygon = std::get_if<RoundedPolygon>(&shape)) return PlacedPolygon(*polygon);
-  if (const auto* plane = std::get_if<HalfPlane>(&shape)) return PlacedHalfPlane(*plane);
-  throw std::invalid_argument("contacts of ellipses and terrain are not there yet");
+  return std::visit(
+      [](const auto& s) -> PlacedShape {
+        using S = std::decay_t<decltype(s)>;
+        if constexpr (std::is_same_v<S, RoundedPolygon>) return PlacedPolygon(s);
+        if constexpr (std::is_same_v<S, Ellipse>) return PlacedEllipse(s);
+        if constexpr (std::is_same_v<S, HalfPlane>) return PlacedHalfPlane(s);
+        if constexpr (std::is_same_v<S, Terrain>) return PlacedTerrain(s);
+      },
+      shape);
 }
 
 void place(PlacedPolygon& shape, const Frame& frame) {
@@ -62,9 +109,31 @@ void place(PlacedPolygon& shape, const Frame& frame) {
   }
 }
 
+void place(PlacedEllipse& shape, const Frame& frame) {
+  shape.position = frame.position;
+  shape.centre = direction_to_world(frame, shape.local.position);
+  shape.axis = direction_to_world(frame, {shape.local.cos, shape.local.sin});
+}
+
 void place(PlacedHalfPlane& shape, const Frame& frame) {
   shape.position = frame.position;
   shape.normal = direction_to_world(frame, shape.local_normal);
+}
+
+void place(PlacedTerrain& shape, const Frame& frame) {
+  shape.position = frame.position;
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    shape.points[i].point = direction_to_world(frame, shape.local[i].point);
+    shape.points[i].normal = direction_to_world(frame, shape.local[i].normal);
+  }
+  for (std::size_t k = 0; k < shape.blocks.size(); ++k) {
+    const std::size_t first = k * PlacedTerrain::k_block;
+    Box& box = shape.blocks[k];
+    box = {shape.points[first].point, shape.points[first].point};
+    for (std::size_t i = first; i <= first + PlacedTerrain::k_block && i < shape.points.size(); ++i) {
+      box = united(box, {shape.points[i].point, shape.points[i].point});
+    }
+  }
 }
 
 void place(PlacedShape& shape, const Frame& frame) {
@@ -72,7 +141,7 @@ void place(PlacedShape& shape, const Frame& frame) {
 }
 
 Box bounding_box(const PlacedShape& shape, double margin) {
-  return std::visit([&](const auto& s) { return box_of(s, margin); }, shape);
+  return std::visit([&](const auto& s) { return bounding_box(s, margin); }, shape);
 }
 
 }  // namespace tumble

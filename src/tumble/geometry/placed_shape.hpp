@@ -10,6 +10,15 @@
 
 namespace tumble {
 
+// With sides along the axes.
+struct Box {
+  Vector2 low, high;
+};
+
+inline bool overlap(const Box& a, const Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
 struct PlacedPolygon {
   // A corner and the side that leaves it, counter-clockwise.
   struct Corner {
@@ -40,24 +49,50 @@ struct PlacedHalfPlane {
   Vector2 local_normal;
 };
 
-using PlacedShape = std::variant<PlacedPolygon, PlacedHalfPlane>;
+struct PlacedEllipse {
+  explicit PlacedEllipse(const Ellipse& shape);
+
+  double semi_axis_x = 0.0, semi_axis_y = 0.0;
+  Vector2 centre;  // about the position of the body
+  Vector2 axis;    // direction of the first axis, of length 1
+  Vector2 position;
+  Frame local;
+};
+
+struct PlacedTerrain {
+  // A point and the segment that leaves it; the last point has none and keeps the directions of the one before.
+  struct Point {
+    Vector2 point;
+    Vector2 normal;  // out of the ground: the direction of the segment turned left
+    double length = 0.0;
+  };
+  explicit PlacedTerrain(const Terrain& shape);
+
+  int segments() const { return static_cast<int>(points.size()) - 1; }
+
+  std::vector<Point> points;
+  std::vector<Box> blocks;  // of k_block segments each
+  Vector2 position;
+  std::vector<Point> local;
+
+  static constexpr int k_block = 16;
+};
+
+using PlacedShape = std::variant<PlacedPolygon, PlacedEllipse, PlacedHalfPlane, PlacedTerrain>;
 
 PlacedShape placed_shape(const Shape& shape);
 
 void place(PlacedPolygon& shape, const Frame& frame);
+void place(PlacedEllipse& shape, const Frame& frame);
 void place(PlacedHalfPlane& shape, const Frame& frame);
+void place(PlacedTerrain& shape, const Frame& frame);
 void place(PlacedShape& shape, const Frame& frame);
 
-// Bounding boxes in the world frame.
-struct Box {
-  Vector2 low, high;
-};
-
-inline bool overlap(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
-// A box of everything within `margin` of the shape. Infinite for half-planes.
+// A box in the world frame of everything within `margin` of the shape. Infinite for half-planes.
+Box bounding_box(const PlacedPolygon& shape, double margin);
+Box bounding_box(const PlacedEllipse& shape, double margin);
+Box bounding_box(const PlacedHalfPlane& shape, double margin);
+Box bounding_box(const PlacedTerrain& shape, double margin);
 Box bounding_box(const PlacedShape& shape, double margin);
 
 }  // namespace tumble

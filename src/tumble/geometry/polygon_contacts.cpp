@@ -18,7 +18,7 @@ constexpr double k_round_off = 8.0 * std::numeric_limits<double>::epsilon();
 constexpr double k_steepest = 0.7071067811865476;
 
 // The side of `own` farthest below all of `other`, and the corner of `other` nearest to its line.
-struct Separation {
+struct SideSeparation {
   double distance = -k_infinity;
   int side = -1;
   int corner = -1;
@@ -30,8 +30,8 @@ double height(const PlacedPolygon::Corner& side, Vector2 corner, Vector2 offset)
 }
 
 // Sides that separate less than `floor` are not looked at.
-Separation separation(const PlacedPolygon& own, const PlacedPolygon& other, Vector2 offset, double floor) {
-  Separation best;
+SideSeparation separation(const PlacedPolygon& own, const PlacedPolygon& other, Vector2 offset, double floor) {
+  SideSeparation best;
   int corner = 0;
   for (int i = 0; i < own.sides(); ++i) {
     const PlacedPolygon::Corner& side = own.corners[i];
@@ -72,7 +72,7 @@ class Manifold {
       : own_(own), other_(other), offset_(offset), own_is_b_(own_is_b), reach_(reach), contacts_(contacts) {}
 
   // From the side that separates the shapes most. The closest points lie on that side, or are two corners.
-  void from_side(const Separation& s) {
+  void from_side(const SideSeparation& s) {
     if (s.side < 0) return corner_corner(0, 0, s);  // two discs
     Stretch stretch = shared_stretch(s.side, most_opposed_side(s.side, s.corner), s.corner);
     if (stretch.near <= stretch.far) {
@@ -130,7 +130,7 @@ class Manifold {
     return s;
   }
 
-  void near_end(const Separation& s, const Stretch& stretch) {
+  void near_end(const SideSeparation& s, const Stretch& stretch) {
     if (stretch.own_near < 0) return other_corner_over_side(s.corner, s.side);
     if (s.distance > 0.0 && !is_over_side(stretch)) return corner_corner(stretch.own_near, s.corner, s);
     own_corner_over_side(stretch.own_near, stretch.side);
@@ -161,7 +161,7 @@ class Manifold {
   }
 
   // Where no corner lies over a side of the other shape, the closest points are two corners.
-  void closest_corners(const Separation& s) {
+  void closest_corners(const SideSeparation& s) {
     int m = 0, k = 0;
     double smallest = k_infinity;
     for (int i = 0; i < own_.count(); ++i) {
@@ -179,7 +179,7 @@ class Manifold {
     if (m == s.side || m == own_.next(s.side)) far_ends(s.side, k);
   }
 
-  void corner_corner(int m, int k, const Separation& s) {
+  void corner_corner(int m, int k, const SideSeparation& s) {
     const Vector2 from = own_.corners[m].vertex, to = other_vertex(k);
     const Vector2 between = to - from;
     const double distance = length(between);
@@ -236,9 +236,9 @@ class Manifold {
 void append_contacts(const PlacedPolygon& a, const PlacedPolygon& b, double reach, ContactPoints& contacts) {
   const Vector2 offset = b.position - a.position;
   const double limit = reach + (a.rounding + b.rounding);
-  const Separation from_a = separation(a, b, offset, -k_infinity);
+  const SideSeparation from_a = separation(a, b, offset, -k_infinity);
   if (from_a.distance > limit) return;
-  const Separation from_b = separation(b, a, -offset, from_a.distance);
+  const SideSeparation from_b = separation(b, a, -offset, from_a.distance);
   if (from_b.distance > limit) return;
   if (from_a.distance > from_b.distance || (from_a.distance == from_b.distance && precedes(a, b, offset))) {
     Manifold(a, b, offset, false, reach, contacts).from_side(from_a);
