@@ -6,7 +6,7 @@ PYTHON := $(shell command -pv python3 || echo /usr/bin/python3)
 BUILD := build
 CMAKE := cmake -S . -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 
-.PHONY: all run test bench bench-lcp fuzz sanitize install clean help deps-build deps-python configure
+.PHONY: all run test bench bench-lcp bench-scenes fuzz sanitize install clean help deps-build deps-python configure
 
 all: configure ## build the library, the program and the Python package
 	@cmake --build $(BUILD)
@@ -43,12 +43,13 @@ test: ## all tests; the last line is "N passed, N failed"
 	@cmake --build $(BUILD)
 	@$(PYTHON) scripts/run_tests.py --build $(BUILD)
 
-bench: ## benchmarks; writes out/bench.md
+bench: ## benchmarks; writes out/bench.md, and what bench-scenes writes
 	@scripts/deps.sh build python bench
 	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_BENCHMARKS=ON >/dev/null
 	@cmake --build $(BUILD)
 	@mkdir -p out
 	@$(PYTHON) benchmarks/run.py --build $(BUILD) --output out/bench.md
+	@$(MAKE) --no-print-directory bench-scenes
 
 LCP_ARGS ?=
 bench-lcp: ## every LCP solver on the same problems; LONG=1 adds millions; writes out/bench-lcp.md, .csv, -*.png
@@ -58,6 +59,13 @@ bench-lcp: ## every LCP solver on the same problems; LONG=1 adds millions; write
 	@mkdir -p out
 	@$(BUILD)/bin/tumble_bench_lcp $(if $(LONG),--long) $(LCP_ARGS)
 	@$(PYTHON) benchmarks/lcp/plot.py out/bench-lcp.csv
+
+SCENES_ARGS ?=
+bench-scenes: ## engines on the same scenes; LONG=1 takes more rounds; writes out/bench-scenes.md, .csv
+	@scripts/deps.sh build bench-scenes
+	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_SCENE_BENCHMARKS=ON >/dev/null
+	@cmake --build $(BUILD) --target tumble_bench_scenes
+	@$(BUILD)/bin/tumble_bench_scenes $(if $(LONG),--rounds 15) $(SCENES_ARGS)
 
 TIME ?= 60
 fuzz: ## libFuzzer on every loader, TIME seconds each (default 60)

@@ -6,15 +6,16 @@ set -eu
 packages_of() {
   case "$1" in
     build) echo "g++ cmake ninja-build pkg-config libeigen3-dev libfmt-dev libcli11-dev nlohmann-json3-dev zlib1g-dev libcairo2-dev
-                 libboost-dev libgif-dev libhdf5-dev fonts-dejavu-core" ;;
+                 libboost-dev libtomlplusplus-dev libgif-dev libhdf5-dev fonts-dejavu-core" ;;
     python) echo "python3-dev python3-venv python3-pip python3-setuptools python3-wheel pybind11-dev python3-numpy
                   python3-matplotlib python3-pil python3-tk python3-pil.imagetk" ;;
     test) echo "libgtest-dev libfclib-dev python3-pytest python3-hypothesis python3-h5py mypy ffmpeg
                 clang-14 libclang-rt-14-dev clang-format-14 git" ;;
     bench) echo "libbenchmark-dev" ;;
     bench-lcp) echo "libsiconos-numerics-dev libbullet-dev libdart-dev libfclib-dev" ;;
+    bench-scenes) echo "libbox2d-dev libchipmunk-dev" ;;
     fuzz) echo "clang-14 libclang-rt-14-dev" ;;
-    *) echo "deps.sh: unknown set '$1'; sets: build python test bench bench-lcp fuzz" >&2; exit 2 ;;
+    *) echo "deps.sh: unknown set '$1'; sets: build python test bench bench-lcp bench-scenes fuzz" >&2; exit 2 ;;
   esac
 }
 

@@ -9,6 +9,12 @@ for fuzzer in "$build"/tests/fuzz/fuzz_*; do
   mkdir -p "$build/corpus/$name"
   case $name in
     fuzz_lcp_text | fuzz_exact_lcp_text) printf 'M\n2 1\n1 2\nq\n-1 -1/2\n' >"$build/corpus/$name/seed" ;;
+    fuzz_scene_toml)
+      cp scenes/*.toml "$build/corpus/$name/"
+      # What toml++ 3.3 must not see: headers without a name, characters beyond ASCII where none may stand.
+      for text in '[//' '[&' '[[[' '\357\273\237-' 'x = \303\251' 'x = \343\200\201' 'x = 04"""\357\273\276"""'; do
+        printf "$text" >"$build/corpus/$name/seed$(printf "$text" | cksum | cut -d' ' -f1)"
+      done ;;
     fuzz_record_npz) cp tests/output/data/*.npz "$build/corpus/$name/" ;;
   esac
   echo "$name: $seconds s"

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <map>
 
+#include "median.hpp"
 #include <fmt/format.h>
 
 #include "tumble/math/numeric.hpp"
 
 namespace tumble::bench {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::string time_text(double seconds) {
   if (seconds < 1e-6) return fmt::format("{:.0f} ns", 1e9 * seconds);

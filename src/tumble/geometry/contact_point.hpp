@@ -21,4 +21,10 @@ struct ContactPoint {
   std::uint32_t feature = 0;  // which corners or sides of the two shapes touch: the same number for the same features
 };
 
+// A contact of two bodies.
+struct Contact : ContactPoint {
+  int body_a = 0, body_b = 0;  // indices into Scene::bodies, body_a < body_b
+  int part_a = 0, part_b = 0;  // indices into Body::parts
+};
+
 }  // namespace tumble

@@ -11,12 +11,6 @@
 
 namespace tumble {
 
-// A contact of two bodies.
-struct Contact : ContactPoint {
-  int body_a = 0, body_b = 0;  // indices into Scene::bodies, body_a < body_b
-  int part_a = 0, part_b = 0;  // indices into Body::parts
-};
-
 // Scratch memory and what does not change with the motion. Of one scene; its loss changes no result. One per thread.
 class ContactFinder {
  public:

@@ -91,6 +91,7 @@ void validate(const ContactSystem& system) {
     require_finite(c.tangent_b, name + ".tangent_b");
     if (!(std::isfinite(c.friction) && c.friction >= 0.0)) refuse(name + ".friction", "finite and >= 0", c.friction);
     if (!std::isfinite(c.offset)) refuse(name + ".offset", "finite", c.offset);
+    if (!std::isfinite(c.tangent_offset)) refuse(name + ".tangent_offset", "finite", c.tangent_offset);
   }
 }
 
@@ -141,7 +142,7 @@ LcpProblem as_lcp(const ContactSystem& system) {
 
 std::array<double, 2> velocity_at(const BodyContact& contact, const std::vector<Vector3>& velocity) {
   return {velocity_along(normal_row(contact), velocity) + contact.offset,
-          velocity_along(tangent_row(contact), velocity)};
+          velocity_along(tangent_row(contact), velocity) + contact.tangent_offset};
 }
 
 ContactMode contact_mode(double normal_impulse, double slip_speed, double u_t) {

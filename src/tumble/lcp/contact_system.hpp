@@ -11,7 +11,8 @@
 namespace tumble {
 
 // A contact between two bodies, or a body and the world (index -1). The velocity at the contact, of b seen from a, is
-//   u_n = normal_a . v_a + normal_b . v_b + offset,      u_t = tangent_a . v_a + tangent_b . v_b      [m/s],
+//   u_n = normal_a . v_a + normal_b . v_b + offset,
+//   u_t = tangent_a . v_a + tangent_b . v_b + tangent_offset      [m/s],
 // u_n > 0 while the bodies separate. Rows of the world are ignored.
 struct BodyContact {
   int body_a = -1;
@@ -20,8 +21,9 @@ struct BodyContact {
   Vector3 normal_b{};
   Vector3 tangent_a{};
   Vector3 tangent_b{};
-  double friction = 0.0;  // mu >= 0 [-]
-  double offset = 0.0;    // [m/s]: gap / step size, restitution times the approach speed, ...
+  double friction = 0.0;        // mu >= 0 [-]
+  double offset = 0.0;          // [m/s]: gap / step size, restitution times the approach speed, ...
+  double tangent_offset = 0.0;  // [m/s]: what moves without being a body of the system, a conveyor for one
 };
 
 struct ContactSystem {

@@ -101,7 +101,12 @@ struct MassProperties {
 MassProperties mass_properties(const std::vector<Part>& parts, double density);
 
 // Moves the frame of the body to `origin` (in its present frame): the parts move in the frame, the pose such that
-// nothing moves in the world, velocity and knots to those of the new origin.
+// nothing moves in the world, velocity and knots to those of the new origin. Between knots that turn the body it runs
+// straight from one place of the new origin to the next, which is another motion than before.
 void move_origin(Body& body, Vector2 origin);
+
+// Gives a body the mass and moment of inertia of its parts filled with `density` [kg/m^2], and moves its origin to
+// their centre of mass. A centre of mass nearer to the origin than the rounding of its own sum leaves it there.
+void set_density(Body& body, double density);
 
 }  // namespace tumble

@@ -40,6 +40,7 @@ using Shape = std::variant<RoundedPolygon, Ellipse, HalfPlane, Terrain>;
 RoundedPolygon disc(double radius, Vector2 center = {});
 RoundedPolygon rectangle(double width, double height, double rounding = 0.0);  // outer sizes
 RoundedPolygon square(double side, double rounding = 0.0);
+// The lowest side is level. Rounding included, the corners reach to `circumradius`.
 RoundedPolygon regular_polygon(int corners, double circumradius, double rounding = 0.0);
 RoundedPolygon capsule(double length, double radius);  // length between the centres of its ends, along x
 RoundedPolygon segment(Vector2 from, Vector2 to);

@@ -1,0 +1,14 @@
+// What must hold of a text before toml++ 3.3 may read it. Not a public header.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tumble {
+
+// Throws std::invalid_argument "<name>:<line>:<column>: ..." for texts on which toml++ 3.3 has undefined behaviour or
+// uses up the memory or the stack: invalid UTF-8, characters beyond ASCII outside of strings and comments, table
+// headers without a name, very many values, keys of very many parts. All of it but the sizes is no TOML anyway.
+void guard_toml(std::string_view text, const std::string& name);
+
+}  // namespace tumble

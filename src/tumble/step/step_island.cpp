@@ -1,0 +1,285 @@
+// How the bodies of one island move in a step: freely, landing, or bouncing. See time_step.hpp and docs/theory/step.md.
+#include <algorithm>
+#include <cmath>
+
+#include "tumble/contact/restitution.hpp"
+#include "tumble/step/step_parts.hpp"
+
+namespace tumble {
+namespace {
+
+using Index = std::size_t;
+using Parts = StepWorkspace::Parts;
+using Velocities = std::vector<Vector3>;
+
+// [-] of what is summed: energy above is created, not rounded.
+constexpr double k_energy_round_off = 1e-12;
+// [-] of the way that a contact can go in a step: a gap below is closed.
+constexpr double k_gap_round_off = 1e-12;
+
+struct Island {
+  Parts& parts;
+  IslandContacts contacts;
+  double h;
+  const StepSettings& settings;
+  IslandOutcome outcome;
+
+  StepContact& at(int i) const { return parts.contacts[static_cast<Index>(i)]; }
+
+  void list_bodies() {
+    parts.island_body.clear();
+    for (const int i : contacts) {
+      for (const int body : {at(i).rows.body_a, at(i).rows.body_b}) {
+        if (body < 0 || parts.local_body[static_cast<Index>(body)] >= 0) continue;
+        parts.local_body[static_cast<Index>(body)] = static_cast<int>(parts.island_body.size());
+        parts.island_body.push_back(body);
+      }
+    }
+  }
+
+  void forget_bodies() {
+    for (const int body : parts.island_body) parts.local_body[static_cast<Index>(body)] = -1;
+  }
+
+  // One contact in closed form.
+  void solve_one(StepContact& c, const Velocities& from, Velocities& to) {
+    const auto [u_n, u_t] = contact_velocity(c.rows, from);
+    OneContact problem{0.0, 0.0, 0.0, u_n + c.offset, u_t, c.friction};
+    const auto add_response = [&](int body, const Vector3& normal, const Vector3& tangent) {
+      if (body < 0) return;
+      const Vector3& w = parts.inverse_mass[static_cast<Index>(body)];
+      problem.A_nn += normal[0] * normal[0] * w[0] + normal[1] * normal[1] * w[1] + normal[2] * normal[2] * w[2];
+      problem.A_nt += normal[0] * tangent[0] * w[0] + normal[1] * tangent[1] * w[1] + normal[2] * tangent[2] * w[2];
+      problem.A_tt += tangent[0] * tangent[0] * w[0] + tangent[1] * tangent[1] * w[1] + tangent[2] * tangent[2] * w[2];
+    };
+    add_response(c.rows.body_a, c.rows.normal_a, c.rows.tangent_a);
+    add_response(c.rows.body_b, c.rows.normal_b, c.rows.tangent_b);
+    const OneContactSolution solution = solve_one_contact(problem);
+    c.impulse = {solution.f_n, solution.f_t};
+    c.mode = solution.mode;
+    const auto push = [&](int body, const Vector3& normal, const Vector3& tangent) {
+      if (body < 0) return;
+      const auto b = static_cast<Index>(body);
+      const Vector3& w = parts.inverse_mass[b];
+      for (Index j = 0; j < 3; ++j) {
+        to[b][j] = from[b][j] + w[j] * (normal[j] * solution.f_n + tangent[j] * solution.f_t);
+      }
+    };
+    push(c.rows.body_a, c.rows.normal_a, c.rows.tangent_a);
+    push(c.rows.body_b, c.rows.normal_b, c.rows.tangent_b);
+    note(solution.status, solution.residual, 0);
+  }
+
+  void note(LcpStatus status, double residual, int factorisations) {
+    if (status != LcpStatus::solved && outcome.status == LcpStatus::solved) outcome.status = status;
+    outcome.residual = std::max(outcome.residual, residual);
+    outcome.factorisations += factorisations;
+  }
+
+  // The LCP of the contacts included, from velocities `from` to velocities `to` of the island's bodies.
+  void solve(const Velocities& from, Velocities& to) {
+    if (contacts.size() == 1 && at(contacts[0]).is_included) return solve_one(at(contacts[0]), from, to);
+    IslandSolver& solver = parts.solver;
+    solver.system.inverse_mass.clear();
+    solver.system.velocity.clear();
+    solver.system.contacts.clear();
+    solver.modes.clear();
+    solver.impulses.clear();
+    for (const int body : parts.island_body) {
+      solver.system.inverse_mass.push_back(parts.inverse_mass[static_cast<Index>(body)]);
+      solver.system.velocity.push_back(from[static_cast<Index>(body)]);
+    }
+    const auto local = [&](int body) { return body < 0 ? -1 : parts.local_body[static_cast<Index>(body)]; };
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      if (!c.is_included) continue;
+      BodyContact& rows = solver.system.contacts.emplace_back(c.rows);
+      rows.body_a = local(rows.body_a);
+      rows.body_b = local(rows.body_b);
+      rows.offset += c.offset;
+      rows.friction = c.friction;
+      solver.modes.push_back(c.mode);
+      solver.impulses.insert(solver.impulses.end(), {c.impulse[0], c.impulse[1]});
+    }
+    if (!solver.system.contacts.empty()) {
+      const IslandSolution solution = solver.solve({settings.solver, settings.num_sweeps});
+      note(solution.status, solution.residual, solution.factorisations);
+    } else {
+      solver.velocity = solver.system.velocity;
+    }
+    for (Index b = 0; b < parts.island_body.size(); ++b) {
+      to[static_cast<Index>(parts.island_body[b])] = solver.velocity[b];
+    }
+    Index k = 0;
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      c.mode = ContactMode::open;
+      c.impulse = {};
+      if (!c.is_included) continue;
+      c.mode = solver.modes[k];
+      c.impulse = {solver.impulses[2 * k], solver.impulses[2 * k + 1]};
+      ++k;
+    }
+  }
+
+  // The same; contacts that static friction does not hold slip with the kinetic one.
+  void solve_with_statics(const Velocities& from, Velocities& to) {
+    for (;;) {
+      solve(from, to);
+      bool has_broken = false;
+      for (const int i : contacts) {
+        StepContact& c = at(i);
+        if (!c.is_static || c.mode == ContactMode::open || c.mode == ContactMode::stick) continue;
+        c.is_static = false;
+        c.friction = c.law->friction;
+        has_broken = true;
+      }
+      if (!has_broken) return;
+    }
+  }
+
+  bool is_free() const {
+    for (const int i : contacts) {
+      const StepContact& c = at(i);
+      if (c.gap + 0.5 * h * (c.speed[0] + c.free_speed[0]) < 0.0) return false;
+    }
+    return true;
+  }
+
+  // A contact that bounces if its own motion, without the other contacts, closes the gap within the step.
+  bool is_bouncing(const StepContact& c) const {
+    return c.bounce > 0.0 && c.gap + 0.5 * h * (c.speed[0] + c.free_speed[0]) < 0.0;
+  }
+
+  // A contact that would be stopped by landing although it bounces: now, or in the next step.
+  bool must_not_land(const StepContact& c) const { return c.bounce > 0.0 && c.gap + h * c.free_speed[0] < 0.0; }
+
+  // One LCP for the velocity at the end of the step, with which the bodies also move.
+  void land() {
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      c.is_included = true;
+      c.offset = c.gap / h;
+    }
+    solve_with_statics(parts.free_velocity, parts.next_velocity);
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      for (Index j = 0; j < 3; ++j) parts.travel[b][j] = h * parts.next_velocity[b][j];
+    }
+  }
+
+  // One LCP for the way, one for the velocities after.
+  void bounce() {
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      c.is_included = true;
+      c.offset = c.gap / h;
+      c.friction = is_bouncing(c) ? 0.0 : c.friction;  // what bounces meets its friction after the way
+    }
+    solve_with_statics(parts.middle_velocity, parts.way_velocity);
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      for (Index j = 0; j < 3; ++j) parts.travel[b][j] = h * parts.way_velocity[b][j];
+    }
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      const double way = h * contact_velocity(c.rows, parts.way_velocity)[0];
+      const double round_off = k_gap_round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])));
+      const bool is_touched = c.mode != ContactMode::open || c.gap + way <= round_off;
+      c.is_included = is_touched;
+      const bool is_bounce = is_touched && is_bouncing(c);
+      c.offset = is_bounce ? -c.bounce : 0.0;
+      c.restitution = is_bounce ? c.law->restitution : 0.0;
+      if (!c.is_static) c.friction = c.law->friction;
+    }
+    solve_with_statics(parts.free_velocity, parts.next_velocity);
+  }
+
+  // The larger of the contact's A_nn and A_tt.
+  double response_of(const StepContact& c) const {
+    double nn = 0.0, tt = 0.0;
+    const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
+      if (body < 0) return;
+      const Vector3& w = parts.inverse_mass[static_cast<Index>(body)];
+      for (Index j = 0; j < 3; ++j) {
+        nn += normal[j] * normal[j] * w[j];
+        tt += tangent[j] * tangent[j] * w[j];
+      }
+    };
+    add(c.rows.body_a, c.rows.normal_a, c.rows.tangent_a);
+    add(c.rows.body_b, c.rows.normal_b, c.rows.tangent_b);
+    return std::max(nn, tt);
+  }
+
+  // What came from nothing: the work of contacts, of which none may be positive in sum, and what moving otherwise than
+  // by (v + v') / 2 gained.
+  struct Created {
+    double energy = 0.0;
+    double size = 0.0;
+  };
+  Created created() const {
+    Created sum;
+    const auto add = [&](double term) {
+      sum.energy += term;
+      sum.size += std::abs(term);
+    };
+    for (const int i : contacts) {
+      const StepContact& c = at(i);
+      if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
+      const auto u = contact_velocity(c.rows, parts.next_velocity);
+      add(0.5 * c.impulse[0] * c.speed[0]);
+      add(0.5 * c.impulse[0] * u[0]);
+      add(0.5 * c.impulse[1] * c.speed[1]);
+      add(0.5 * c.impulse[1] * u[1]);
+      const double push = c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1];
+      sum.size += push * response_of(c);  // what the impulse alone would do: velocities are rounded sums of it
+    }
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      for (Index j = 0; j < 3; ++j) {
+        add(parts.force[b][j] * (0.5 * h * (parts.velocity[b][j] + parts.next_velocity[b][j]) - parts.travel[b][j]));
+        sum.size += 0.5 * parts.mass[b][j] * parts.velocity[b][j] * parts.velocity[b][j];
+      }
+    }
+    return sum;
+  }
+};
+
+}  // namespace
+
+IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const StepSettings& settings) {
+  Island island{parts, contacts, h, settings, {}};
+  for (const int i : contacts) {
+    StepContact& c = island.at(i);
+    c.is_static = c.has_stuck && c.law->static_friction > c.law->friction;
+    c.friction = c.is_static ? c.law->static_friction : c.law->friction;
+    c.restitution = 0.0;
+  }
+  if (island.is_free()) {
+    for (const int i : contacts) {
+      island.at(i).mode = ContactMode::open;
+      island.at(i).impulse = {};
+      island.at(i).speed_after = island.at(i).free_speed;
+    }
+    return island.outcome;
+  }
+  island.list_bodies();
+  const bool bounces =
+      std::any_of(contacts.begin(), contacts.end(), [&](int i) { return island.is_bouncing(island.at(i)); });
+  if (bounces) {
+    island.bounce();
+  } else {
+    island.land();
+  }
+  for (const int i : contacts) {
+    StepContact& c = island.at(i);
+    c.speed_after = contact_velocity(c.rows, parts.next_velocity);
+    island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;
+  }
+  const Island::Created created = island.created();
+  if (created.energy > k_energy_round_off * created.size) island.outcome.created = created.energy;
+  island.forget_bodies();
+  return island.outcome;
+}
+
+}  // namespace tumble

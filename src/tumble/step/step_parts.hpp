@@ -1,0 +1,103 @@
+// The scratch memory of a step, shared by its files. Not a public header.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "tumble/contact/island_solver.hpp"
+#include "tumble/geometry/detect_contacts.hpp"
+#include "tumble/lcp/contact_system.hpp"
+#include "tumble/step/step_report.hpp"
+#include "tumble/step/time_step.hpp"
+
+namespace tumble {
+
+// One contact during a step. Velocities are (u_n, u_t).
+struct StepContact {
+  Contact contact;
+  const ContactLaw* law = nullptr;
+  BodyContact rows;                    // bodies: index into the scene, -1 unless dynamic; offsets: of the motion of
+                                       // kinematic bodies and conveyors
+  std::array<double, 2> speed{};       // at the start of the step
+  std::array<double, 2> free_speed{};  // at its end, were there no contacts
+  double gap = 0.0;                    // [m] what may close during the step: 0 where the bodies overlap
+  double bounce = 0.0;                 // [m/s] speed of separation, if the gap closes
+  bool has_stuck = false;              // in the last step: static friction may hold it
+  bool is_listed = false;              // in an island: it may be touched in this step
+  bool is_new = false;                 // there, since the islands were last solved
+  // Of the LCP being solved, and what came out.
+  bool is_included = true;
+  double friction = 0.0;                 // kinetic, or static
+  bool is_static = false;                // friction is the static one, and that is larger
+  double offset = 0.0;                   // of u_n
+  ContactMode mode = ContactMode::open;  // in: where to start
+  std::array<double, 2> impulse{};       // in: where to start
+  std::array<double, 2> speed_after{};
+  double restitution = 0.0;  // that was at work
+};
+
+struct IslandOutcome {
+  LcpStatus status = LcpStatus::solved;
+  double residual = 0.0;
+  int factorisations = 0;
+  bool is_at_work = false;  // some contact was touched
+  double created = 0.0;     // [J], above round-off
+};
+
+struct StepWorkspace::Parts {
+  explicit Parts(const Scene& scene);
+
+  // Of the scene.
+  ContactFinder finder;
+  std::vector<ContactLaw> laws;       // of materials a, b at a * materials + b
+  std::vector<Vector3> inverse_mass;  // per body; 0 unless dynamic
+  std::vector<Vector3> mass;          // (m, m, I)
+  std::vector<double> radius;         // of the circle about the origin of the body's frame that holds it
+
+  // Of a step, per body.
+  std::vector<Frame> frames;
+  std::vector<double> reach;             // [m]
+  std::vector<Vector3> velocity;         // at the start; of kinematic bodies, their mean during the step
+  std::vector<Vector3> force;            // F_x, F_y, torque: gravity and wrench [N, N m]
+  std::vector<Vector3> wrench;           // the wrench alone
+  std::vector<Vector3> free_velocity;    // v_f
+  std::vector<Vector3> middle_velocity;  // (v + v_f) / 2
+  std::vector<Vector3> next_velocity;
+  std::vector<Vector3> travel;  // x, y, angle
+
+  // Contacts, island by island.
+  std::vector<StepContact> contacts;
+  std::vector<int> parent;             // union-find over bodies
+  std::vector<int> island_of;          // root body -> island
+  std::vector<int> island_begin;       // islands + 1
+  std::vector<int> island_contact;     // indices into contacts
+  std::vector<IslandOutcome> outcome;  // of an island, at the index of its first contact
+  IslandSolver solver;
+  std::vector<int> local_body, island_body;
+  std::vector<Vector3> way_velocity;  // of the LCP for the way
+};
+
+using IslandContacts = std::span<const int>;  // indices into Parts::contacts
+
+// Velocities and travel of the bodies of one island, impulses and modes of its contacts.
+IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, double step_size,
+                          const StepSettings& settings);
+
+// Velocity (u_n, u_t) of the contact where its bodies have the given ones.
+inline std::array<double, 2> contact_velocity(const BodyContact& rows, const std::vector<Vector3>& velocity) {
+  std::array<double, 2> u = {rows.offset, rows.tangent_offset};
+  if (rows.body_a >= 0) {
+    const Vector3& v = velocity[static_cast<std::size_t>(rows.body_a)];
+    u[0] += dot(rows.normal_a, v);
+    u[1] += dot(rows.tangent_a, v);
+  }
+  if (rows.body_b >= 0) {
+    const Vector3& v = velocity[static_cast<std::size_t>(rows.body_b)];
+    u[0] += dot(rows.normal_b, v);
+    u[1] += dot(rows.tangent_b, v);
+  }
+  return u;
+}
+
+}  // namespace tumble

@@ -1,0 +1,116 @@
+#include "tumble/trajectory/simulate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr double k_max_steps = 1e9;
+
+void require_positive_or_default(double value, const char* field) {
+  if (!(std::isfinite(value) && value >= 0.0)) {
+    throw std::invalid_argument(fmt::format("{}: must be > 0 s, or 0 for the scene's own, got {}", field, value));
+  }
+}
+
+}  // namespace
+
+EnergyLedger energies(const Scene& scene, const State& state) {
+  EnergyLedger energy;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.kind != BodyKind::dynamic) continue;
+    const BodyState& b = state.bodies[i];
+    const Vector3& v = b.velocity;
+    energy.kinetic += 0.5 * body.mass * v[0] * v[0];
+    energy.kinetic += 0.5 * body.mass * v[1] * v[1];
+    energy.kinetic += 0.5 * body.moment_of_inertia * v[2] * v[2];
+    energy.potential -= body.mass * (scene.gravity.x * b.pose.position.x + scene.gravity.y * b.pose.position.y);
+  }
+  return energy;
+}
+
+void validate(const SimulateSettings& settings) {
+  require_positive_or_default(settings.step_size, "step_size");
+  require_positive_or_default(settings.duration, "duration");
+  if (settings.sample_every < 1) {
+    throw std::invalid_argument(fmt::format("sample_every: must be >= 1, got {}", settings.sample_every));
+  }
+  validate(settings.step);
+}
+
+Simulation::Simulation(const Scene& scene, const SimulateSettings& settings) : settings_(settings) {
+  validate(settings);
+  trajectory_.scene = scene;
+  workspace_ = std::make_unique<StepWorkspace>(trajectory_.scene);
+  trajectory_.step_size = settings.step_size > 0.0 ? settings.step_size : scene.step_size;
+  const double duration = settings.duration > 0.0 ? settings.duration : scene.duration;
+  const double steps = duration / trajectory_.step_size;
+  if (!(steps <= k_max_steps)) {
+    throw std::invalid_argument(fmt::format("duration: must be at most {:g} steps of {} s, got {} s", k_max_steps,
+                                            trajectory_.step_size, duration));
+  }
+  // Up to the end asked for, or past it by less than a step; a last step of nothing but round-off is none.
+  num_steps_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(steps * (1.0 - 1e-12))));
+  state_ = initial_state(trajectory_.scene);
+  since_sample_ = energies(trajectory_.scene, state_);
+  sample();
+}
+
+void Simulation::sample() {
+  trajectory_.time.push_back(state_.time);
+  trajectory_.bodies.push_back(state_.bodies);
+  trajectory_.energy.push_back(since_sample_);
+  since_sample_ = {};
+}
+
+void Simulation::advance() {
+  if (is_done()) return;
+  trajectory_.status =
+      time_step(trajectory_.scene, trajectory_.step_size, settings_.step, state_, *workspace_, &report_);
+  ++step_;
+  state_.time = static_cast<double>(step_) * trajectory_.step_size;
+  trajectory_.num_steps = step_;
+  trajectory_.residual = std::max(trajectory_.residual, report_.residual);
+  const EnergyLedger& energy = report_.energy;
+  since_sample_.kinetic = energy.kinetic;
+  since_sample_.potential = energy.potential;
+  since_sample_.external_work += energy.external_work;
+  since_sample_.friction_loss += energy.friction_loss;
+  since_sample_.impact_loss += energy.impact_loss;
+  since_sample_.damping_loss += energy.damping_loss;
+  since_sample_.stabilisation_work += energy.stabilisation_work;
+  since_sample_.created += energy.created;
+  if (energy.created > 0.0) {
+    if (trajectory_.num_creating_steps == 0) trajectory_.first_creation = state_.time;
+    ++trajectory_.num_creating_steps;
+    trajectory_.created_energy += energy.created;
+  }
+  if (settings_.keeps_contacts) {
+    StepContacts at_work{step_, {}};
+    for (const ContactRecord& record : report_.contacts) {
+      if (record.mode != ContactMode::open) at_work.contacts.push_back(record);
+    }
+    if (!at_work.contacts.empty()) trajectory_.contacts.push_back(std::move(at_work));
+  }
+  trajectory_.is_complete = step_ == num_steps_ && trajectory_.status == LcpStatus::solved;
+  if (is_done() || step_ % settings_.sample_every == 0) sample();
+}
+
+Trajectory Simulation::finish() {
+  if (trajectory_.time.back() != state_.time) sample();
+  return std::move(trajectory_);
+}
+
+Trajectory simulate(const Scene& scene, const SimulateSettings& settings) {
+  Simulation simulation(scene, settings);
+  while (!simulation.is_done()) simulation.advance();
+  return simulation.finish();
+}
+
+}  // namespace tumble

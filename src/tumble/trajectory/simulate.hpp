@@ -1,0 +1,57 @@
+// Steps a scene from its start to its end.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "tumble/step/time_step.hpp"
+#include "tumble/trajectory/trajectory.hpp"
+
+namespace tumble {
+
+struct SimulateSettings {
+  double step_size = 0.0;  // [s]; 0: the scene's
+  double duration = 0.0;   // [s]; 0: the scene's
+  int sample_every = 1;    // steps between samples, >= 1; the last step is always one
+  bool keeps_contacts = true;
+  StepSettings step{};
+};
+
+// Throws std::invalid_argument, naming the field: what is negative, not finite, or more than 10^9 steps.
+void validate(const SimulateSettings& settings);
+
+// A run, step by step, for those who want to look in between, to show how far it is, or to end it early.
+class Simulation {
+ public:
+  // Throws std::invalid_argument as `validate` of scene and settings.
+  Simulation(const Scene& scene, const SimulateSettings& settings = {});
+
+  bool is_done() const { return step_ == num_steps_ || trajectory_.status != LcpStatus::solved; }
+  void advance();  // one step
+
+  double time() const { return state_.time; }
+  std::int64_t step() const { return step_; }
+  std::int64_t num_steps() const { return num_steps_; }
+  const State& state() const { return state_; }
+  const StepReport& report() const { return report_; }  // of the last step
+  const Trajectory& trajectory() const { return trajectory_; }
+
+  // What was computed so far; the present state is its last sample. The simulation is over.
+  Trajectory finish();
+
+ private:
+  void sample();
+
+  SimulateSettings settings_;
+  std::int64_t step_ = 0, num_steps_ = 0;
+  Trajectory trajectory_;  // holds the scene
+  std::unique_ptr<StepWorkspace> workspace_;
+  State state_;
+  StepReport report_;
+  EnergyLedger since_sample_;
+};
+
+// The whole run. It ends early, with the status of that step, where a step could not be solved.
+Trajectory simulate(const Scene& scene, const SimulateSettings& settings = {});
+
+}  // namespace tumble

@@ -1,0 +1,41 @@
+// The course of a scene over time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tumble/scene/scene.hpp"
+#include "tumble/step/state.hpp"
+#include "tumble/step/step_report.hpp"
+
+namespace tumble {
+
+// What contacts did in one step.
+struct StepContacts {
+  std::int64_t step = 0;  // 1, 2, ...; the step ends at time step * step_size
+  std::vector<ContactRecord> contacts;
+};
+
+// Samples of a run, the first at time 0. Row k of an array over samples belongs to time[k].
+struct Trajectory {
+  Scene scene;
+  double step_size = 0.0;                      // [s]
+  std::vector<double> time;                    // [s], T samples
+  std::vector<std::vector<BodyState>> bodies;  // T x bodies of the scene
+  std::vector<EnergyLedger> energy;            // T; works and losses since the sample before
+  std::vector<StepContacts> contacts;          // of every step in which contacts were at work, if asked for
+
+  std::int64_t num_steps = 0;
+  LcpStatus status = LcpStatus::solved;  // of the last step: where it is not `solved` the run ended with it
+  double residual = 0.0;                 // the largest of all steps
+  std::int64_t num_creating_steps = 0;   // steps that created energy,
+  double created_energy = 0.0;           // how much in all [J],
+  double first_creation = -1.0;          // and when first [s]; -1: never
+  bool is_complete = false;              // it reached the end asked for
+};
+
+// The energies of a state [J]; works and losses are 0.
+EnergyLedger energies(const Scene& scene, const State& state);
+
+}  // namespace tumble
