@@ -6,6 +6,7 @@
 namespace tumble {
 namespace {
 
+constexpr std::size_t k_few = 20;       // boxes: each against each is faster
 constexpr double k_strip_height = 2.0;  // mean heights of a box
 constexpr double k_tall = 8.0;          // strips
 constexpr double k_most_strips = 1e15;  // numbers of strips fit into 64 bits
@@ -15,6 +16,14 @@ constexpr std::int64_t k_tall_mark = INT64_MIN;
 
 const std::vector<BoxPair>& BroadPhase::find(const std::vector<Box>& boxes) {
   pairs_.clear();
+  if (boxes.size() <= k_few) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t j = i + 1; j < boxes.size(); ++j) {
+        if (overlap(boxes[i], boxes[j])) pairs_.push_back({static_cast<int>(i), static_cast<int>(j)});
+      }
+    }
+    return pairs_;
+  }
   sort_by_x(boxes);
   assign_strips();
   sweep_strips();

@@ -1,7 +1,7 @@
 #include "tumble/geometry/detect_contacts.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <tuple>
 
 #include "tumble/geometry/pair_contacts.hpp"
 
@@ -65,20 +65,22 @@ void ContactFinder::find_pairs(const std::vector<double>& reach) {
   }
 }
 
-// By the first body in buckets, then by (second body, first part, second part) in each.
+// By (first body, second body, first part, second part): by the first body in buckets, then in each.
 void ContactFinder::sort_pairs() {
+  const auto before = [&](const BoxPair& p, const BoxPair& q) {
+    const auto key = [&](const BoxPair& pair) {
+      return std::tuple(parts_[pair.first].body, parts_[pair.second].body, pair.first, pair.second);
+    };
+    return key(p) < key(q);
+  };
+  if (std::is_sorted(unsorted_.begin(), unsorted_.end(), before)) return pairs_.swap(unsorted_);
+
   bucket_.assign(placed_at_.size() + 1, 0);
   const auto bucket_of = [&](const BoxPair& pair) { return static_cast<std::size_t>(parts_[pair.first].body); };
   for (const BoxPair& pair : unsorted_) ++bucket_[bucket_of(pair) + 1];
   for (std::size_t i = 1; i < bucket_.size(); ++i) bucket_[i] += bucket_[i - 1];
   pairs_.resize(unsorted_.size());
   for (const BoxPair& pair : unsorted_) pairs_[bucket_[bucket_of(pair)]++] = pair;
-
-  const auto before = [&](const BoxPair& p, const BoxPair& q) {
-    const int body_p = parts_[p.second].body, body_q = parts_[q.second].body;
-    if (body_p != body_q) return body_p < body_q;
-    return p.first != q.first ? p.first < q.first : p.second < q.second;
-  };
   auto begin = pairs_.begin();
   for (std::size_t body = 0; body < placed_at_.size(); ++body) {
     const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(bucket_[body]);

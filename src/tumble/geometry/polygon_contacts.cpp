@@ -4,6 +4,8 @@
 // choice is computed about the position of `own`, so that it does not matter which of the two came first.
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "tumble/geometry/pair_contacts.hpp"
 
@@ -31,21 +33,35 @@ double height(const PlacedPolygon::Corner& side, Vector2 corner, Vector2 offset)
 
 // Sides that separate less than `floor` are not looked at.
 SideSeparation separation(const PlacedPolygon& own, const PlacedPolygon& other, Vector2 offset, double floor) {
+  const int sides = own.sides();
+  // The side that faces the other's position most is a good guess: most others are ruled out by a single corner.
+  int start = 0;
+  double most = -k_infinity;
+  for (int i = 0; i < sides; ++i) {
+    const double facing = dot(own.corners[i].normal, offset) - own.corners[i].offset;
+    if (facing > most) {
+      most = facing;
+      start = i;
+    }
+  }
   SideSeparation best;
   int corner = 0;
-  for (int i = 0; i < own.sides(); ++i) {
+  for (int count = 0, i = start; count < sides; ++count, i = own.next(i)) {
     const PlacedPolygon::Corner& side = own.corners[i];
-    // The corner that was lowest last is a bound that rules out most sides at once.
-    double lowest = height(side, other.corners[corner].vertex, offset);
-    if (lowest <= best.distance || lowest < floor) continue;
+    if (const double bound = height(side, other.corners[corner].vertex, offset);
+        bound <= best.distance || bound < floor) {
+      continue;
+    }
+    double lowest = dot(side.normal, other.corners[corner].vertex);
     for (int k = 0; k < other.count(); ++k) {
-      const double h = height(side, other.corners[k].vertex, offset);
+      const double h = dot(side.normal, other.corners[k].vertex);
       if (h < lowest) {
         lowest = h;
         corner = k;
       }
     }
-    if (lowest > best.distance && lowest >= floor) best = {lowest, i, corner};
+    const double distance = height(side, other.corners[corner].vertex, offset);
+    if (distance > best.distance && distance >= floor) best = {distance, i, corner};
   }
   return best;
 }
@@ -82,7 +98,7 @@ class Manifold {
     } else {
       other_corner_over_side(s.corner, s.side);
     }
-    far_ends(s.side, s.corner);
+    far_ends(s.side, s.corner, &stretch);
   }
 
  private:
@@ -144,13 +160,19 @@ class Manifold {
   }
   bool is_over_side(const Stretch& stretch) const { return is_over_side(stretch, stretch.own_near); }
 
-  // The ends that the two sides at a corner of `other` share with a side of `own`, away from the corner.
-  void far_ends(int own_side, int corner) {
+  // The ends that the two sides at a corner of `other` share with a side of `own`, away from the corner. One of them
+  // may be known already.
+  void far_ends(int own_side, int corner, const Stretch* known = nullptr) {
     if (other_.sides() == 0) return;
     for (const int other_side : {corner, other_.previous(corner)}) {
       const double opposed = -dot(own_.corners[own_side].normal, other_.corners[other_side].normal);
       if (!(opposed > 0.0)) continue;
-      const Stretch stretch = shared_stretch(own_side, other_side, corner);
+      if (opposed <= k_steepest &&
+          !is_within_reach(own_side, other_side == corner ? other_.next(corner) : other_side)) {
+        continue;  // of a steep side only the corner counts
+      }
+      const Stretch stretch =
+          known != nullptr && known->side == other_side ? *known : shared_stretch(own_side, other_side, corner);
       if (!(stretch.near < stretch.far)) continue;
       if (stretch.own_far < 0) {
         other_corner_over_side(stretch.other_far, own_side);
@@ -160,9 +182,40 @@ class Manifold {
     }
   }
 
+  bool is_within_reach(int own_side, int other_corner) const {
+    const double h = height(own_.corners[own_side], other_.corners[other_corner].vertex, offset_);
+    return h - (own_.rounding + other_.rounding) <= reach_;
+  }
+
   // Where no corner lies over a side of the other shape, the closest points are two corners.
   void closest_corners(const SideSeparation& s) {
-    int m = 0, k = 0;
+    int m = own_end_near(s.side, s.corner), k = s.corner;
+    if (!are_closest(m, k)) std::tie(m, k) = closest_of_all_corners();
+    corner_corner(m, k, s);
+    if (m == s.side || m == own_.next(s.side)) far_ends(s.side, k);
+  }
+
+  // The end of a side of `own` on whose side a corner of `other` lies.
+  int own_end_near(int side, int corner) const {
+    const Vector2 left = turned_left(own_.corners[side].normal);
+    const int end = own_.next(side);
+    const double middle = 0.5 * (dot(left, own_.corners[side].vertex) + dot(left, own_.corners[end].vertex));
+    return dot(left, other_vertex(corner)) > middle ? end : side;
+  }
+
+  // Two corners are if neither shape has a side there that leads towards the other.
+  bool are_closest(int m, int k) const {
+    const Vector2 between = other_vertex(k) - own_.corners[m].vertex;
+    const auto leads = [](const PlacedPolygon& shape, int corner, Vector2 towards) {
+      const Vector2 v = shape.corners[corner].vertex;
+      return dot(shape.corners[shape.next(corner)].vertex - v, towards) > 0.0 ||
+             dot(shape.corners[shape.previous(corner)].vertex - v, towards) > 0.0;
+    };
+    return !leads(own_, m, between) && !leads(other_, k, -between);
+  }
+
+  std::pair<int, int> closest_of_all_corners() const {
+    std::pair<int, int> closest;
     double smallest = k_infinity;
     for (int i = 0; i < own_.count(); ++i) {
       for (int j = 0; j < other_.count(); ++j) {
@@ -170,13 +223,11 @@ class Manifold {
         const double square = dot(between, between);
         if (square < smallest) {
           smallest = square;
-          m = i;
-          k = j;
+          closest = {i, j};
         }
       }
     }
-    corner_corner(m, k, s);
-    if (m == s.side || m == own_.next(s.side)) far_ends(s.side, k);
+    return closest;
   }
 
   void corner_corner(int m, int k, const SideSeparation& s) {
