@@ -44,21 +44,22 @@ double core_distance(const std::vector<Vector2>& a, const std::vector<Vector2>& 
   double distance = INFINITY;
   bool overlap = false;
   const std::size_t n = a.size(), m = b.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < m; ++k) {
-      distance = std::min(distance, distance_to_segment(a[i], b[k], b[(k + 1) % m]));
-      distance = std::min(distance, distance_to_segment(b[k], a[i], a[(i + 1) % n]));
-      if (n > 1 && m > 1) overlap = overlap || cross_each_other(a[i], a[(i + 1) % n], b[k], b[(k + 1) % m]);
-    }
-  }
   const auto inside = [](const std::vector<Vector2>& polygon, Vector2 p) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       if (cross(polygon[(i + 1) % polygon.size()] - polygon[i], p - polygon[i]) < 0) return false;
     }
     return polygon.size() > 2;
   };
-  overlap = overlap || inside(a, b[0]) || inside(b, a[0]);
-  return overlap ? std::max(least_depth(a, b), least_depth(b, a)) : distance;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < m; ++k) {
+      distance = std::min(distance, distance_to_segment(a[i], b[k], b[(k + 1) % m]));
+      distance = std::min(distance, distance_to_segment(b[k], a[i], a[(i + 1) % n]));
+      if (n > 1 && m > 1) overlap = overlap || cross_each_other(a[i], a[(i + 1) % n], b[k], b[(k + 1) % m]);
+      overlap = overlap || inside(a, b[k]) || inside(b, a[i]);
+    }
+  }
+  if (!overlap && distance > 0) return distance;
+  return n == 1 && m == 1 ? 0.0 : std::max(least_depth(a, b), least_depth(b, a));
 }
 
 TEST(PolygonContacts, RandomPairsHaveTheDistanceOfABruteForce) {
@@ -72,6 +73,61 @@ TEST(PolygonContacts, RandomPairsHaveTheDistanceOfABruteForce) {
     ASSERT_NEAR(smallest_gap(contacts), expected, k_tolerance) << trial;
     for (const ContactPoint& c : contacts) expect_whole(c);
     if (testing::Test::HasFailure()) FAIL() << trial;
+  }
+}
+
+// Shapes in one line, flush, concentric, corner to corner: on a lattice, with axes at right angles and nearly so.
+TEST(PolygonContacts, DegeneratePairsHaveTheDistanceOfABruteForce) {
+  const RoundedPolygon shapes[] = {{{{0, 0}}, 0.0},
+                                   {{{0, 0}}, 0.25},
+                                   {{{-1, 0}, {1, 0}}, 0.0},
+                                   {{{-0.5, 0}, {0.5, 0}}, 0.25},
+                                   {{{0, -1}, {0, 1}}, 0.25},
+                                   {{{-0.5, -0.5}, {0.5, -0.5}, {0, 0.5}}, 0.0},
+                                   box(1, 1),
+                                   box(2, 1, 0.25)};
+  for (const RoundedPolygon& a : shapes) {
+    for (const RoundedPolygon& b : shapes) {
+      for (double x = -3; x <= 3; x += 0.5) {
+        for (double y = -3; y <= 3; y += 0.5) {
+          for (const double angle : {0.0, 1e-17, -1e-14, 1e-9, 0.5, 1.5707963267948966, 3.141592653589793}) {
+            SCOPED_TRACE(testing::Message() << x << " " << y << " " << angle << " of " << a.vertices.size() << " and "
+                                            << b.vertices.size());
+            const Frame fa = frame(0, 0, 0), fb = frame(x, y, angle);
+            const auto contacts = contacts_of(a, fa, b, fb);
+            const double expected = core_distance(in_world(a, fa), in_world(b, fb)) - a.rounding - b.rounding;
+            ASSERT_FALSE(contacts.empty());
+            ASSERT_NEAR(smallest_gap(contacts), expected, k_tolerance);
+            for (const ContactPoint& c : contacts) expect_whole(c);
+            ASSERT_FALSE(testing::Test::HasFailure());
+          }
+        }
+      }
+    }
+  }
+}
+
+// Moved together, by turns and as far as a kilometre, the shapes have the same contacts to 1e-12 of that way.
+TEST(PolygonContacts, MovingBothShapesMovesTheContacts) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 10000; ++trial) {
+    const RoundedPolygon a = random_polygon(random), b = random_polygon(random);
+    const Frame fa = random_frame(random, 1.0), fb = random_frame(random, 1.0);
+    const double far = trial % 2 ? 1000.0 : 1.0;
+    const Frame motion = random_frame(random, far);
+    const auto moved = [&](const Frame& f) {
+      return Frame{point_to_world(motion, f.position), motion.sin * f.cos + motion.cos * f.sin,
+                   motion.cos * f.cos - motion.sin * f.sin};
+    };
+    const auto here = contacts_of(a, fa, b, fb), there = contacts_of(a, moved(fa), b, moved(fb));
+    ASSERT_NEAR(smallest_gap(here), smallest_gap(there), far * k_tolerance) << trial;
+    for (const ContactPoint& c : here) {
+      for (const ContactPoint& d : there) {
+        if (c.feature != d.feature) continue;
+        EXPECT_NEAR(length(point_to_world(motion, c.point_a) - d.point_a), 0.0, far * k_tolerance);
+        EXPECT_NEAR(length(point_to_world(motion, c.point_b) - d.point_b), 0.0, far * k_tolerance);
+      }
+    }
   }
 }
 

@@ -93,7 +93,7 @@ class Manifold {
     Stretch stretch = shared_stretch(s.side, most_opposed_side(s.side, s.corner), s.corner);
     if (stretch.near <= stretch.far) {
       near_end(s, stretch);
-    } else if (s.distance > 0.0) {
+    } else if (s.distance > 0.0 || are_in_one_line()) {
       return closest_corners(s);
     } else {
       other_corner_over_side(s.corner, s.side);
@@ -102,6 +102,9 @@ class Manifold {
   }
 
  private:
+  // Segments and discs that share no stretch, but that no side separates, lie in one line, apart.
+  bool are_in_one_line() const { return own_.count() <= 2 && other_.count() <= 2; }
+
   // The stretch that a side of `own` and a side of `other` that faces it share, measured along the side of `own` away
   // from a given corner of `other`.
   struct Stretch {
