@@ -12,7 +12,8 @@ for fuzzer in "$build"/tests/fuzz/fuzz_*; do
     fuzz_scene_toml)
       cp scenes/*.toml "$build/corpus/$name/"
       # What toml++ 3.3 must not see: headers without a name, characters beyond ASCII where none may stand.
-      for text in '[//' '[&' '[[[' '\357\273\237-' 'x = \303\251' 'x = \343\200\201' 'x = 04"""\357\273\276"""'; do
+      for text in '[//' '[&' '[[[' '\357\273\237-' 'x = \303\251' 'x = \343\200\201' 'x = 04"""\357\273\276"""' \
+          'x = """\\\n\357\273\276"""' 'x=1="\357\271\277"'; do
         printf "$text" >"$build/corpus/$name/seed$(printf "$text" | cksum | cut -d' ' -f1)"
       done ;;
     fuzz_record_npz) cp tests/output/data/*.npz "$build/corpus/$name/" ;;

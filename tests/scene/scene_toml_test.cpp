@@ -212,6 +212,11 @@ TEST(SceneToml, RefusesWhatIsNoToml) {
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
   EXPECT_EQ(error_of("tumble = 1\ntitle = \"caf\xC3\xA9\" # \xC3\xA9 \xE2\x82\xAC\r\n"), "");
+  EXPECT_EQ(error_of("tumble = 1\ntitle = \"\"\"a\\\n  b \xC3\xA9\"\"\"\n"), "") << "one line in two";
+  EXPECT_EQ(
+      error_of("\"tumble\" = 1\n[\"materials\" . 'x'] # ]\n\"friction\" = 0.1\nrestitution=0\n[[bodies]]\ndensity = 1\n"
+               "parts = [ # [\n { shape = { square = 1 }, material = \"x\" }, { shape = { disc = 1 } }\n, ]\n"),
+      "");
   EXPECT_EQ(error_of("\xEF\xBB\xBFtumble = 1"), "") << "a byte order mark";
   EXPECT_EQ(error_of("tumble = 1\ntitle = \"\"\"a\"\"\"\"\" # two quotes, then the end\n"), "");
   EXPECT_NE(error_of(std::string(100000, '[')), "");

@@ -12,25 +12,23 @@ namespace {
 constexpr int k_max_key_parts = 16;
 constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF";  // as some editors put in front
 
-// Goes through the text character by character and knows what is inside of strings and comments.
+// Goes through the text character by character and knows what is a string, a comment, a key or a value. It refuses a
+// string or bracket where TOML has none, since toml++ would take it for a part of the bare text before it.
 class Guard {
  public:
   Guard(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   void check() {
     if (text_.starts_with(k_byte_order_mark)) at_ = k_byte_order_mark.size();
-    const std::size_t first = at_;
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '#') {
         skip_comment();
       } else if (c == '"' || c == '\'') {
-        // Behind anything else toml++ takes the quote for a part of that, and what follows for no string.
-        if (at_ > first && std::string_view(" \t\n=,[{.").find(text_[at_ - 1]) == std::string_view::npos) {
-          refuse("a string must not stand right behind other text");
-        }
-        is_line_start_ = false;
+        if (has_text_ && !(last_ == '.' && !is_value_)) refuse("a string must not stand behind other text");
         skip_string(c);
+        has_text_ = true;
+        last_ = c;
       } else {
         check_bare(c);
         advance();
@@ -71,34 +69,79 @@ class Guard {
     for (std::size_t i = 0; i < end.size(); ++i) advance();
     while (!is_next(end)) {
       if (at_ >= text_.size() || (!is_long && text_[at_] == '\n')) refuse("the string must end with its quote");
-      if (quote == '"' && text_[at_] == '\\' && at_ + 1 < text_.size()) advance();
-      advance();
+      if (quote == '"' && text_[at_] == '\\') {
+        skip_escape();
+      } else {
+        advance();
+      }
     }
     for (std::size_t i = 0; i < end.size(); ++i) advance();
     // Up to two quotes may stand before the closing ones.
     for (int i = 0; is_long && i < 2 && is_next(end.substr(0, 1)); ++i) advance();
   }
 
+  // A backslash and what it goes with: one character, or the line end and all blanks behind it. Behind it toml++ asks
+  // whether there is another blank, which is undefined for most characters beyond ASCII.
+  void skip_escape() {
+    const std::size_t next = text_.find_first_not_of(" \t\r\n", at_ + 1);
+    if (next < text_.size() && static_cast<unsigned char>(text_[next]) >= 0x80) {
+      refuse("a character beyond ASCII must not follow a backslash");
+    }
+    advance();
+    if (at_ < text_.size()) advance();
+  }
+
   // A character outside of strings and comments.
   void check_bare(char c) {
-    if (static_cast<unsigned char>(c) >= 0x80) {
-      refuse("a character beyond ASCII must stand in quotes or in a comment");
-    }
-    if (c == '\n') {
-      is_line_start_ = true;
-      key_parts_ = 0;
-      return;
-    }
+    if (static_cast<unsigned char>(c) >= 0x80) refuse("a character beyond ASCII must stand in quotes or in a comment");
     if (c == ' ' || c == '\t' || c == '\r') return;
-    if (c == '.' && ++key_parts_ > k_max_key_parts) refuse(fmt::format("a key has at most {} parts", k_max_key_parts));
-    if (c == ',' || c == '=' || c == '{' || c == '[') {
-      key_parts_ = 0;
-      if (++values_ > k_max_scene_values) refuse(fmt::format("at most {} values are read", k_max_scene_values));
+    switch (c) {
+      case '\n':
+        if (brackets_.empty()) start(false);
+        break;
+      case '=':
+        if (is_value_) refuse("'=' must not stand in a value");
+        start(true);
+        break;
+      case ',': start(!brackets_.empty() && brackets_.back() == '['); break;
+      case '[':
+      case '{': open(c); break;
+      case ']':
+      case '}':
+        if (!brackets_.empty()) brackets_.pop_back();
+        is_value_ = is_value_ || c == '}';
+        has_text_ = true;
+        break;
+      default:
+        if (c == '.' && ++key_parts_ > k_max_key_parts)
+          refuse(fmt::format("a key has at most {} parts", k_max_key_parts));
+        has_text_ = true;
     }
-    if (c == '[' && is_line_start_ && depth_ == 0) check_header();
-    if (c == '[' || c == '{') ++depth_;
-    if ((c == ']' || c == '}') && depth_ > 0) --depth_;
-    is_line_start_ = false;
+    last_ = c;
+  }
+
+  // A new key or value begins behind this character.
+  void start(bool is_value) {
+    is_value_ = is_value;
+    has_text_ = false;
+    key_parts_ = 0;
+    if (++values_ > k_max_scene_values) refuse(fmt::format("at most {} values are read", k_max_scene_values));
+  }
+
+  void open(char bracket) {
+    if (is_value_) {
+      if (has_text_) refuse(fmt::format("'{}' must not stand behind other text", bracket));
+      start(bracket == '[');
+      brackets_ += bracket;
+    } else if (bracket == '[' && brackets_ == "h" && last_ == '[') {
+      brackets_ += 'h';  // the second one of [[name]]
+    } else if (bracket == '[' && brackets_.empty() && !has_text_) {
+      check_header();
+      start(false);
+      brackets_ += 'h';
+    } else {
+      refuse(fmt::format("'{}' must not stand in a key", bracket));
+    }
   }
 
   void check_header() const {
@@ -116,8 +159,10 @@ class Guard {
   std::size_t line_ = 1, column_ = 1;
   std::size_t values_ = 0;
   int key_parts_ = 0;
-  int depth_ = 0;  // of brackets
-  bool is_line_start_ = true;
+  std::string brackets_;   // open ones; 'h' for those of a table header
+  bool is_value_ = false;  // or a key
+  bool has_text_ = false;  // of this key or value
+  char last_ = '\n';       // character outside of strings, comments and blanks
 };
 
 }  // namespace
