@@ -77,7 +77,6 @@ double least_gap(const Scene& scene) {
 TEST(NamedScenes, DoNotOverlapAtTheStart) {
   for (const std::string& name : all_names()) {
     // Ellipses and terrain have no contacts yet.
-    if (name == "ellipse_drop" || name == "ramp_with_disc" || name == "terrain") continue;
     EXPECT_GE(least_gap(named(name)), -k_gap_rounding) << name;
   }
 }

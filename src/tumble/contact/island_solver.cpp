@@ -72,10 +72,10 @@ struct IslandSolver::Parts {
   }
 
   // By the general solver, which finds all that has a solution, but not as fast.
-  LcpStatus search_dense(const ContactSystem& system) {
-    const LcpResult& result = solve_lcp(as_lcp(system), RobustSettings{}, lcp);
+  LcpStatus search_dense(const ContactSystem& problem) {
+    const LcpResult& result = solve_lcp(as_lcp(problem), RobustSettings{}, lcp);
     if (result.status == LcpStatus::bad_input) return LcpStatus::numerical;
-    const Index m = system.contacts.size();
+    const Index m = problem.contacts.size();
     for (Index i = 0; i < m; ++i) {
       modes.impulses[2 * i] = result.z[i];
       modes.impulses[2 * i + 1] = result.z[m + 2 * i] - result.z[m + 2 * i + 1];

@@ -9,7 +9,6 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_ridge = 1e-10;      // [-] of the diagonal of A
-constexpr double k_path_ridge = 1e-8;  // the same along a path, where the last digits decide which way it goes
 constexpr double k_round_off = 1e-13;  // relative: contradictions below are not real
 constexpr int k_max_corrections = 12;  // each gains the digits that ridge over the smallest eigenvalue of A leaves
 
