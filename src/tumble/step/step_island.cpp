@@ -140,26 +140,22 @@ struct Island {
 
   bool is_free() const {
     for (const int i : contacts) {
-      const StepContact& c = at(i);
-      if (c.gap + 0.5 * h * (c.speed[0] + c.free_speed[0]) < 0.0) return false;
+      if (free_gap(at(i), h) < 0.0) return false;
     }
     return true;
   }
 
   // A contact that bounces if its own motion, without the other contacts, closes the gap within the step.
   bool is_bouncing(const StepContact& c) const {
-    return c.bounce > 0.0 && c.gap + 0.5 * h * (c.speed[0] + c.free_speed[0]) < 0.0;
+    return c.bounce > 0.0 && free_gap(c, h) < 0.0;
   }
-
-  // A contact that would be stopped by landing although it bounces: now, or in the next step.
-  bool must_not_land(const StepContact& c) const { return c.bounce > 0.0 && c.gap + h * c.free_speed[0] < 0.0; }
 
   // One LCP for the velocity at the end of the step, with which the bodies also move.
   void land() {
     for (const int i : contacts) {
       StepContact& c = at(i);
       c.is_included = true;
-      c.offset = c.gap / h;
+      c.offset = std::max(c.gap + c.bend, 0.0) / h;
     }
     solve_with_statics(parts.free_velocity, parts.next_velocity);
     for (const int body : parts.island_body) {
@@ -173,7 +169,7 @@ struct Island {
     for (const int i : contacts) {
       StepContact& c = at(i);
       c.is_included = true;
-      c.offset = c.gap / h;
+      c.offset = std::max(c.gap + c.bend, 0.0) / h;
       c.friction = is_bouncing(c) ? 0.0 : c.friction;  // what bounces meets its friction after the way
     }
     solve_with_statics(parts.middle_velocity, parts.way_velocity);
@@ -185,7 +181,7 @@ struct Island {
       StepContact& c = at(i);
       const double way = h * contact_velocity(c.rows, parts.way_velocity)[0];
       const double round_off = k_gap_round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])));
-      const bool is_touched = c.mode != ContactMode::open || c.gap + way <= round_off;
+      const bool is_touched = c.mode != ContactMode::open || c.gap + c.bend + way <= round_off;
       c.is_included = is_touched;
       const bool is_bounce = is_touched && is_bouncing(c);
       c.offset = is_bounce ? -c.bounce : 0.0;
@@ -276,6 +272,7 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
     c.speed_after = contact_velocity(c.rows, parts.next_velocity);
     island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;
   }
+  separate(parts, contacts, h, -island.created().energy);
   const Island::Created created = island.created();
   if (created.energy > k_energy_round_off * created.size) island.outcome.created = created.energy;
   island.forget_bodies();

@@ -21,7 +21,9 @@ struct StepContact {
                                        // kinematic bodies and conveyors
   std::array<double, 2> speed{};       // at the start of the step
   std::array<double, 2> free_speed{};  // at its end, were there no contacts
-  double gap = 0.0;                    // [m] what may close during the step: 0 where the bodies overlap
+  double gap = 0.0;                    // [m] at the start of the step; 0 where the bodies overlap
+  double bend = 0.0;                   // [m] what turning and curved surfaces add to it in the step: h^2 / 2 times
+                                       // `gap_curvature`
   double bounce = 0.0;                 // [m/s] speed of separation, if the gap closes
   bool has_stuck = false;              // in the last step: static friction may hold it
   bool is_listed = false;              // in an island: it may be touched in this step
@@ -35,6 +37,7 @@ struct StepContact {
   std::array<double, 2> impulse{};       // in: where to start
   std::array<double, 2> speed_after{};
   double restitution = 0.0;  // that was at work
+  double push = 0.0;         // [kg m] of `separate`
 };
 
 struct IslandOutcome {
@@ -65,6 +68,7 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> middle_velocity;  // (v + v_f) / 2
   std::vector<Vector3> next_velocity;
   std::vector<Vector3> travel;  // x, y, angle
+  std::vector<Vector3> shift;   // what `separate` adds to it; 0 outside
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
@@ -78,11 +82,21 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> way_velocity;  // of the LCP for the way
 };
 
+// The gap [m] after the step, up to third order, of bodies that move with the mean of u_n and free_speed.
+inline double free_gap(const StepContact& c, double step_size) {
+  return c.gap + 0.5 * step_size * (c.speed[0] + c.free_speed[0]) + c.bend;
+}
+
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
 
 // Velocities and travel of the bodies of one island, impulses and modes of its contacts.
 IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, double step_size,
                           const StepSettings& settings);
+
+// Adds to the travel of the bodies of one island what takes them out of what they would overlap after the step, the
+// least in the metric of their masses. Velocities stay. Bodies are lifted against their forces by no more work than
+// `lost` [J], what the step has lost: the sum creates no energy.
+void separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, double lost);
 
 // Velocity (u_n, u_t) of the contact where its bodies have the given ones.
 inline std::array<double, 2> contact_velocity(const BodyContact& rows, const std::vector<Vector3>& velocity) {

@@ -10,6 +10,7 @@
 
 #include "tumble/contact/contact_rows.hpp"
 #include "tumble/contact/restitution.hpp"
+#include "tumble/geometry/gap_rate.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/step/step_parts.hpp"
 
@@ -155,6 +156,7 @@ void share_friction_line(const StepContact& first, StepContact& second) {
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   const std::vector<Contact>& found = parts.finder.find(parts.frames, parts.reach);
   parts.contacts.resize(found.size());
+  const auto motion_of = [&](Index body) { return Motion{parts.frames[body].position, parts.middle_velocity[body]}; };
   Index memory = 0;
   for (Index i = 0; i < found.size(); ++i) {
     StepContact& c = parts.contacts[i];
@@ -169,7 +171,9 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     c.speed = contact_velocity(c.rows, parts.velocity);
     c.free_speed = contact_velocity(c.rows, parts.free_velocity);
     c.gap = std::max(c.contact.gap, 0.0);
-    c.bounce = bounce_speed({c.gap, c.speed[0], c.free_speed[0], h}, c.law->restitution);
+    const double curvature = gap_curvature(c.contact, motion_of(a), motion_of(b));
+    c.bend = 0.5 * h * h * curvature;
+    c.bounce = bounce_speed({c.gap, c.speed[0], c.free_speed[0] + h * curvature, h}, c.law->restitution);
 
     while (memory < state.contacts.size() && is_before(state.contacts[memory], c.contact)) ++memory;
     const bool is_known =
@@ -180,13 +184,13 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
       const ContactMemory& last = state.contacts[memory];
       c.mode = last.mode;
       c.impulse = {last.normal_impulse, last.friction_impulse};
-    } else if (c.free_speed[0] + c.gap / h < 0.0) {
+    } else if (h * c.free_speed[0] + c.gap + c.bend < 0.0) {
       c.mode = ContactMode::stick;
     }
     c.has_stuck = is_known ? c.mode == ContactMode::stick : c.speed[1] == 0.0;
     // Other contacts may push bodies together: those that they reach are listed then.
     c.is_listed = c.is_new =
-        is_known || c.gap + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
+        is_known || c.gap + c.bend + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
   }
   parts.outcome.assign(found.size(), {});
 }
@@ -250,7 +254,7 @@ bool list_overrun(double h, Parts& parts) {
   bool has_new = false;
   for (StepContact& c : parts.contacts) {
     if (c.is_listed) continue;
-    double gap = c.gap + h * c.rows.offset;
+    double gap = c.gap + c.bend + h * c.rows.offset;
     if (c.rows.body_a >= 0) gap += dot(c.rows.normal_a, parts.travel[static_cast<Index>(c.rows.body_a)]);
     if (c.rows.body_b >= 0) gap += dot(c.rows.normal_b, parts.travel[static_cast<Index>(c.rows.body_b)]);
     if (gap >= -round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])))) continue;
@@ -344,7 +348,7 @@ StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
   frames.resize(n);
   reach.assign(n, 0.0);
   for (std::vector<Vector3>* values :
-       {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity, &travel, &way_velocity}) {
+       {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity, &travel, &shift, &way_velocity}) {
     values->assign(n, Vector3{});
   }
   parent.resize(n);
