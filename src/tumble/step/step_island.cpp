@@ -16,6 +16,8 @@ using Velocities = std::vector<Vector3>;
 constexpr double k_energy_round_off = 1e-12;
 // [-] of the way that a contact can go in a step: a gap below is closed.
 constexpr double k_gap_round_off = 1e-12;
+// [-] of the largest speed at the contacts of an island: what approaches slower is at rest.
+constexpr double k_speed_round_off = 1e-12;
 
 struct Island {
   Parts& parts;
@@ -23,6 +25,7 @@ struct Island {
   double h;
   const StepSettings& settings;
   IslandOutcome outcome;
+  double least_bounce = 0.0;  // [m/s]
 
   StepContact& at(int i) const { return parts.contacts[static_cast<Index>(i)]; }
 
@@ -147,7 +150,7 @@ struct Island {
 
   // A contact that bounces if its own motion, without the other contacts, closes the gap within the step.
   bool is_bouncing(const StepContact& c) const {
-    return c.bounce > 0.0 && free_gap(c, h) < 0.0;
+    return c.bounce > least_bounce && free_gap(c, h) < 0.0;
   }
 
   // One LCP for the velocity at the end of the step, with which the bodies also move.
@@ -244,12 +247,14 @@ struct Island {
 }  // namespace
 
 IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const StepSettings& settings) {
-  Island island{parts, contacts, h, settings, {}};
+  Island island{parts, contacts, h, settings, {}, 0.0};
   for (const int i : contacts) {
     StepContact& c = island.at(i);
     c.is_static = c.has_stuck && c.law->static_friction > c.law->friction;
     c.friction = c.is_static ? c.law->static_friction : c.law->friction;
     c.restitution = 0.0;
+    const double speed = std::max(std::abs(c.speed[0]), std::abs(c.free_speed[0]));
+    island.least_bounce = std::max(island.least_bounce, k_speed_round_off * speed);
   }
   if (island.is_free()) {
     for (const int i : contacts) {

@@ -152,6 +152,17 @@ void share_friction_line(const StepContact& first, StepContact& second) {
   second.rows.tangent_b = first.rows.tangent_b;
 }
 
+// [m] Gaps below are closed.
+double position_round_off(const Parts& parts, const Contact& contact) {
+  constexpr double round_off = 1e-13;  // [-] some hundred times that of one number: positions are sums over many steps
+  const auto size = [&](int body) {
+    const Vector2 p = parts.frames[static_cast<Index>(body)].position;
+    const double radius = parts.radius[static_cast<Index>(body)];
+    return std::max(std::abs(p.x), std::abs(p.y)) + (std::isfinite(radius) ? radius : 0.0);
+  };
+  return round_off * std::max(size(contact.body_a), size(contact.body_b));
+}
+
 // The contacts in reach, with what is known of them before anything is solved.
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   const std::vector<Contact>& found = parts.finder.find(parts.frames, parts.reach);
@@ -170,7 +181,7 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     add_offsets(scene, parts, c);
     c.speed = contact_velocity(c.rows, parts.velocity);
     c.free_speed = contact_velocity(c.rows, parts.free_velocity);
-    c.gap = std::max(c.contact.gap, 0.0);
+    c.gap = c.contact.gap > position_round_off(parts, c.contact) ? c.contact.gap : 0.0;
     const double curvature = gap_curvature(c.contact, motion_of(a), motion_of(b));
     c.bend = 0.5 * h * h * curvature;
     c.bounce = bounce_speed({c.gap, c.speed[0], c.free_speed[0] + h * curvature, h}, c.law->restitution);
