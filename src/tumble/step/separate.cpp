@@ -58,7 +58,8 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, do
     const auto b = static_cast<Index>(body);
     work -= dot(parts.force[b], parts.shift[b]);
   }
-  const double share = work > lost ? std::max(lost, 0.0) / work : 1.0;
+  const double paid = std::max(lost, 0.0);
+  const double share = work > paid ? paid / work : 1.0;
   for (const int body : parts.island_body) {
     const auto b = static_cast<Index>(body);
     for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];

@@ -16,7 +16,7 @@ using Velocities = std::vector<Vector3>;
 constexpr double k_energy_round_off = 1e-12;
 // [-] of the way that a contact can go in a step: a gap below is closed.
 constexpr double k_gap_round_off = 1e-12;
-// [-] of the largest speed at the contacts of an island: what approaches slower is at rest.
+// [-] of the largest speed at the contacts of an island: what approaches or slips slower is at rest.
 constexpr double k_speed_round_off = 1e-12;
 
 struct Island {
@@ -25,7 +25,7 @@ struct Island {
   double h;
   const StepSettings& settings;
   IslandOutcome outcome;
-  double least_bounce = 0.0;  // [m/s]
+  double rest_speed = 0.0;  // [m/s]
 
   StepContact& at(int i) const { return parts.contacts[static_cast<Index>(i)]; }
 
@@ -125,6 +125,12 @@ struct Island {
     }
   }
 
+  // Where contacts share a load, a force at the edge of its cone is no slip.
+  bool slips(const StepContact& c, const Velocities& velocity) const {
+    return c.mode != ContactMode::open && c.mode != ContactMode::stick &&
+           std::abs(contact_velocity(c.rows, velocity)[1]) > rest_speed;
+  }
+
   // The same; contacts that static friction does not hold slip with the kinetic one.
   void solve_with_statics(const Velocities& from, Velocities& to) {
     for (;;) {
@@ -132,7 +138,7 @@ struct Island {
       bool has_broken = false;
       for (const int i : contacts) {
         StepContact& c = at(i);
-        if (!c.is_static || c.mode == ContactMode::open || c.mode == ContactMode::stick) continue;
+        if (!c.is_static || !slips(c, to)) continue;
         c.is_static = false;
         c.friction = c.law->friction;
         has_broken = true;
@@ -141,17 +147,19 @@ struct Island {
     }
   }
 
+  // Contacts that were closed are judged by the law that closed them, that of landing, under which they start the step
+  // with the speed that takes the bend away.
   bool is_free() const {
     for (const int i : contacts) {
-      if (free_gap(at(i), h) < 0.0) return false;
+      const StepContact& c = at(i);
+      const double gap = c.was_closed ? c.gap + h * c.free_speed[0] + c.bend : free_gap(c, h);
+      if (gap < 0.0) return false;
     }
     return true;
   }
 
   // A contact that bounces if its own motion, without the other contacts, closes the gap within the step.
-  bool is_bouncing(const StepContact& c) const {
-    return c.bounce > least_bounce && free_gap(c, h) < 0.0;
-  }
+  bool is_bouncing(const StepContact& c) const { return c.bounce > rest_speed && free_gap(c, h) < 0.0; }
 
   // One LCP for the velocity at the end of the step, with which the bodies also move.
   void land() {
@@ -253,12 +261,14 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
     c.is_static = c.has_stuck && c.law->static_friction > c.law->friction;
     c.friction = c.is_static ? c.law->static_friction : c.law->friction;
     c.restitution = 0.0;
-    const double speed = std::max(std::abs(c.speed[0]), std::abs(c.free_speed[0]));
-    island.least_bounce = std::max(island.least_bounce, k_speed_round_off * speed);
+    const double speed =
+        std::max({std::abs(c.speed[0]), std::abs(c.free_speed[0]), std::abs(c.speed[1]), std::abs(c.free_speed[1])});
+    island.rest_speed = std::max(island.rest_speed, k_speed_round_off * speed);
   }
   if (island.is_free()) {
     for (const int i : contacts) {
       island.at(i).mode = ContactMode::open;
+      island.at(i).sticks = false;
       island.at(i).impulse = {};
       island.at(i).speed_after = island.at(i).free_speed;
     }
@@ -275,6 +285,7 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
   for (const int i : contacts) {
     StepContact& c = island.at(i);
     c.speed_after = contact_velocity(c.rows, parts.next_velocity);
+    c.sticks = c.mode != ContactMode::open && !island.slips(c, parts.next_velocity);
     island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;
   }
   separate(parts, contacts, h, -island.created().energy);

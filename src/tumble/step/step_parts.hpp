@@ -25,6 +25,7 @@ struct StepContact {
   double bend = 0.0;                   // [m] what turning and curved surfaces add to it in the step: h^2 / 2 times
                                        // `gap_curvature`
   double bounce = 0.0;                 // [m/s] speed of separation, if the gap closes
+  bool was_closed = false;             // in the last step
   bool has_stuck = false;              // in the last step: static friction may hold it
   bool is_listed = false;              // in an island: it may be touched in this step
   bool is_new = false;                 // there, since the islands were last solved
@@ -36,6 +37,7 @@ struct StepContact {
   ContactMode mode = ContactMode::open;  // in: where to start
   std::array<double, 2> impulse{};       // in: where to start
   std::array<double, 2> speed_after{};
+  bool sticks = false;       // closed, without slip
   double restitution = 0.0;  // that was at work
   double push = 0.0;         // [kg m] of `separate`
 };

@@ -138,18 +138,20 @@ bool is_before(const ContactMemory& memory, const Contact& contact) {
   return key(memory) < key(contact);
 }
 
-// Contacts of one pair of sides share one line of friction: their tangents are those of the first, whose place is on a
-// flat side if there is one. With lines that differ by the tilt of two sides, however small, rigid bodies could jam on
-// them with forces as large as the tilt is small; on one line they cannot, and where both contacts are closed there is
-// no tilt.
-void share_friction_line(const StepContact& first, StepContact& second) {
+// Contacts of one pair of sides share one line of friction: their tangents are those of the one that is nearer, whose
+// place is on a flat side if there is one. With lines that differ by the tilt of two sides, however small, rigid bodies
+// could jam on them with forces as large as the tilt is small; on one line they cannot, and where both contacts are
+// closed there is no tilt.
+void share_friction_line(StepContact& first, StepContact& second) {
   constexpr double nearly_parallel = 0.99;  // cosine
   const Contact &c = first.contact, &d = second.contact;
   const bool is_same_pair =
       c.body_a == d.body_a && c.body_b == d.body_b && c.part_a == d.part_a && c.part_b == d.part_b;
   if (!is_same_pair || dot(c.normal, d.normal) < nearly_parallel) return;
-  second.rows.tangent_a = first.rows.tangent_a;
-  second.rows.tangent_b = first.rows.tangent_b;
+  const BodyContact& nearer = c.gap <= d.gap ? first.rows : second.rows;
+  BodyContact& other = c.gap <= d.gap ? second.rows : first.rows;
+  other.tangent_a = nearer.tangent_a;
+  other.tangent_b = nearer.tangent_b;
 }
 
 // [m] Gaps below are closed.
@@ -163,26 +165,35 @@ double position_round_off(const Parts& parts, const Contact& contact) {
   return round_off * std::max(size(contact.body_a), size(contact.body_b));
 }
 
+// Two round surfaces, the more so two corners, turn their normal as they pass: past half their distance from centre to
+// centre the first two derivatives of the gap no longer tell what it will be.
+bool is_curvature_known(const StepContact& c, double h) {
+  const double distance = c.contact.gap + c.contact.radius_a + c.contact.radius_b;
+  return std::isinf(distance) || h * 0.5 * std::abs(c.speed[1] + c.free_speed[1]) < 0.5 * distance;
+}
+
 // The contacts in reach, with what is known of them before anything is solved.
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   const std::vector<Contact>& found = parts.finder.find(parts.frames, parts.reach);
   parts.contacts.resize(found.size());
   const auto motion_of = [&](Index body) { return Motion{parts.frames[body].position, parts.middle_velocity[body]}; };
-  Index memory = 0;
   for (Index i = 0; i < found.size(); ++i) {
     StepContact& c = parts.contacts[i];
     c = {};
     c.contact = found[i];
     c.law = &law_of(scene, parts, c.contact);
+    c.gap = c.contact.gap > position_round_off(parts, c.contact) ? c.contact.gap : 0.0;
     const auto a = static_cast<Index>(c.contact.body_a), b = static_cast<Index>(c.contact.body_b);
-    const Vector2 place = contact_place(c.contact);
-    c.rows = contact_rows(c.contact, place, parts.frames[a].position, parts.frames[b].position);
+    c.rows = contact_rows(c.contact, c.gap > 0.0, parts.frames[a].position, parts.frames[b].position);
     if (i > 0) share_friction_line(parts.contacts[i - 1], c);
+  }
+  Index memory = 0;
+  for (StepContact& c : parts.contacts) {
+    const auto a = static_cast<Index>(c.contact.body_a), b = static_cast<Index>(c.contact.body_b);
     add_offsets(scene, parts, c);
     c.speed = contact_velocity(c.rows, parts.velocity);
     c.free_speed = contact_velocity(c.rows, parts.free_velocity);
-    c.gap = c.contact.gap > position_round_off(parts, c.contact) ? c.contact.gap : 0.0;
-    const double curvature = gap_curvature(c.contact, motion_of(a), motion_of(b));
+    const double curvature = is_curvature_known(c, h) ? gap_curvature(c.contact, motion_of(a), motion_of(b)) : 0.0;
     c.bend = 0.5 * h * h * curvature;
     c.bounce = bounce_speed({c.gap, c.speed[0], c.free_speed[0] + h * curvature, h}, c.law->restitution);
 
@@ -194,11 +205,12 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     if (is_known) {
       const ContactMemory& last = state.contacts[memory];
       c.mode = last.mode;
+      c.was_closed = c.mode != ContactMode::open;
       c.impulse = {last.normal_impulse, last.friction_impulse};
     } else if (h * c.free_speed[0] + c.gap + c.bend < 0.0) {
       c.mode = ContactMode::stick;
     }
-    c.has_stuck = is_known ? c.mode == ContactMode::stick : c.speed[1] == 0.0;
+    c.has_stuck = is_known ? state.contacts[memory].has_stuck : c.speed[1] == 0.0;
     // Other contacts may push bodies together: those that they reach are listed then.
     c.is_listed = c.is_new =
         is_known || c.gap + c.bend + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
@@ -312,10 +324,11 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
     if (!c.is_listed) {
       c.speed_after = contact_velocity(c.rows, parts.next_velocity);
       c.mode = ContactMode::open;
+      c.sticks = false;
       c.impulse = {};
     }
     report.contacts.push_back({c.contact, *c.law, c.speed[0], c.speed[1], c.speed_after[0], c.speed_after[1],
-                               c.impulse[0], c.impulse[1], c.restitution, c.mode});
+                               c.impulse[0], c.impulse[1], c.restitution, c.sticks ? ContactMode::stick : c.mode});
     if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
     energy.impact_loss -= 0.5 * c.impulse[0] * (c.speed[0] + c.speed_after[0]);
     energy.friction_loss -= 0.5 * c.impulse[1] * (c.speed[1] + c.speed_after[1]);
@@ -426,7 +439,8 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   for (const StepContact& c : parts.contacts) {
     if (!c.is_listed || c.mode == ContactMode::open) continue;
     const Contact& k = c.contact;
-    state.contacts.push_back({k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.impulse[0], c.impulse[1]});
+    state.contacts.push_back(
+        {k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.sticks, c.impulse[0], c.impulse[1]});
   }
   if (report) {
     *report = {worst.status, worst.residual, num_islands, worst.factorisations, {}, std::move(report->contacts)};
