@@ -147,57 +147,106 @@ struct Island {
     }
   }
 
+  void set_friction() {
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      c.is_static = c.has_stuck && c.law->static_friction > c.law->friction;
+      c.friction = c.is_static ? c.law->static_friction : c.law->friction;
+    }
+  }
+
+  void set_bounce(StepContact& c, double end_speed) const {
+    c.end_speed = end_speed;
+    c.bounce = bounce_speed({c.gap, c.speed[0], end_speed + 2.0 * c.bend / h, h}, c.law->restitution);
+  }
+
+  // The gap [m] after the step, up to third order, without impacts.
+  double gap_without_impacts(const StepContact& c) const {
+    return c.gap + 0.5 * h * (c.speed[0] + c.end_speed) + c.bend;
+  }
+
   // Contacts that were closed are judged by the law that closed them, that of landing, under which they start the step
   // with the speed that takes the bend away.
   bool is_free() const {
-    for (const int i : contacts) {
+    return std::none_of(contacts.begin(), contacts.end(), [&](int i) {
       const StepContact& c = at(i);
-      const double gap = c.was_closed ? c.gap + h * c.free_speed[0] + c.bend : free_gap(c, h);
-      if (gap < 0.0) return false;
-    }
-    return true;
+      return (c.was_closed ? c.gap + h * c.free_speed[0] + c.bend : gap_without_impacts(c)) < 0.0;
+    });
   }
 
-  // A contact that bounces if its own motion, without the other contacts, closes the gap within the step.
-  bool is_bouncing(const StepContact& c) const { return c.bounce > rest_speed && free_gap(c, h) < 0.0; }
+  bool may_bounce(const StepContact& c) const { return c.bounce > rest_speed; }
+  bool is_bouncing(const StepContact& c) const { return may_bounce(c) && gap_without_impacts(c) < 0.0; }
 
-  // One LCP for the velocity at the end of the step, with which the bodies also move.
-  void land() {
-    for (const int i : contacts) {
-      StepContact& c = at(i);
-      c.is_included = true;
-      c.offset = std::max(c.gap + c.bend, 0.0) / h;
-    }
-    solve_with_statics(parts.free_velocity, parts.next_velocity);
+  void set_travel(const Velocities& velocity) {
     for (const int body : parts.island_body) {
       const auto b = static_cast<Index>(body);
-      for (Index j = 0; j < 3; ++j) parts.travel[b][j] = h * parts.next_velocity[b][j];
+      for (Index j = 0; j < 3; ++j) parts.travel[b][j] = h * velocity[b][j];
     }
   }
 
-  // One LCP for the way, one for the velocities after.
-  void bounce() {
+  // The contacts that stand, by one LCP for the velocity at the end of the step. Those that may bounce are left out.
+  void stand(Velocities& to) {
+    set_friction();
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      c.is_included = !may_bounce(c);
+      c.offset = std::max(c.gap + c.bend, 0.0) / h;
+    }
+    solve_with_statics(parts.free_velocity, to);
+  }
+
+  // With the velocity at the end of the step the bodies also move. False if this closes a contact that may bounce.
+  bool land() {
+    stand(parts.next_velocity);
+    set_travel(parts.next_velocity);
+    return std::none_of(contacts.begin(), contacts.end(), [&](int i) {
+      const StepContact& c = at(i);
+      return may_bounce(c) && c.gap + c.bend + h * contact_velocity(c.rows, parts.next_velocity)[0] < 0.0;
+    });
+  }
+
+  // What bounces is approached under the forces and the contacts that stand.
+  void find_approach() {
+    stand(parts.way_velocity);
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      if (may_bounce(c)) set_bounce(c, contact_velocity(c.rows, parts.way_velocity)[0]);
+    }
+  }
+
+  // One LCP for the way, until gaps close. What bounces meets its friction after the way.
+  void find_way() {
+    set_friction();
     for (const int i : contacts) {
       StepContact& c = at(i);
       c.is_included = true;
       c.offset = std::max(c.gap + c.bend, 0.0) / h;
-      c.friction = is_bouncing(c) ? 0.0 : c.friction;  // what bounces meets its friction after the way
+      if (is_bouncing(c)) c.friction = 0.0;
     }
     solve_with_statics(parts.middle_velocity, parts.way_velocity);
-    for (const int body : parts.island_body) {
-      const auto b = static_cast<Index>(body);
-      for (Index j = 0; j < 3; ++j) parts.travel[b][j] = h * parts.way_velocity[b][j];
-    }
+    set_travel(parts.way_velocity);
     for (const int i : contacts) {
       StepContact& c = at(i);
       const double way = h * contact_velocity(c.rows, parts.way_velocity)[0];
       const double round_off = k_gap_round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])));
-      const bool is_touched = c.mode != ContactMode::open || c.gap + c.bend + way <= round_off;
-      c.is_included = is_touched;
-      const bool is_bounce = is_touched && is_bouncing(c);
-      c.offset = is_bounce ? -c.bounce : 0.0;
-      c.restitution = is_bounce ? c.law->restitution : 0.0;
-      if (!c.is_static) c.friction = c.law->friction;
+      c.is_touched = c.mode != ContactMode::open || c.gap + c.bend + way <= round_off;
+    }
+  }
+
+  // One LCP for the velocities after the impacts at the end of the way. Contacts that are opening, and those that only
+  // the impacts of others have closed, are not part of it: if it drives their bodies together, they bounce in the next
+  // step. As parts of it they would stop dead, or push bodies that part already.
+  void bounce() {
+    find_approach();
+    find_way();
+    set_friction();
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      const bool bounces = is_bouncing(c);
+      const bool stands = !may_bounce(c) && c.end_speed <= rest_speed;
+      c.is_included = c.is_touched && (bounces || stands);
+      c.offset = c.is_included && bounces ? -c.bounce : 0.0;
+      c.restitution = c.is_included && bounces ? c.law->restitution : 0.0;
     }
     solve_with_statics(parts.free_velocity, parts.next_velocity);
   }
@@ -258,30 +307,26 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
   Island island{parts, contacts, h, settings, {}, 0.0};
   for (const int i : contacts) {
     StepContact& c = island.at(i);
-    c.is_static = c.has_stuck && c.law->static_friction > c.law->friction;
-    c.friction = c.is_static ? c.law->static_friction : c.law->friction;
     c.restitution = 0.0;
     const double speed =
         std::max({std::abs(c.speed[0]), std::abs(c.free_speed[0]), std::abs(c.speed[1]), std::abs(c.free_speed[1])});
     island.rest_speed = std::max(island.rest_speed, k_speed_round_off * speed);
+    island.set_bounce(c, c.free_speed[0]);
   }
   if (island.is_free()) {
     for (const int i : contacts) {
-      island.at(i).mode = ContactMode::open;
-      island.at(i).sticks = false;
-      island.at(i).impulse = {};
-      island.at(i).speed_after = island.at(i).free_speed;
+      StepContact& c = island.at(i);
+      c.mode = ContactMode::open;
+      c.sticks = false;
+      c.impulse = {};
+      c.speed_after = c.free_speed;
     }
     return island.outcome;
   }
   island.list_bodies();
   const bool bounces =
       std::any_of(contacts.begin(), contacts.end(), [&](int i) { return island.is_bouncing(island.at(i)); });
-  if (bounces) {
-    island.bounce();
-  } else {
-    island.land();
-  }
+  if (bounces || !island.land()) island.bounce();
   for (const int i : contacts) {
     StepContact& c = island.at(i);
     c.speed_after = contact_velocity(c.rows, parts.next_velocity);

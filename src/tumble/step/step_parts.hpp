@@ -24,11 +24,14 @@ struct StepContact {
   double gap = 0.0;                    // [m] at the start of the step; 0 where the bodies overlap
   double bend = 0.0;                   // [m] what turning and curved surfaces add to it in the step: h^2 / 2 times
                                        // `gap_curvature`
-  double bounce = 0.0;                 // [m/s] speed of separation, if the gap closes
   bool was_closed = false;             // in the last step
   bool has_stuck = false;              // in the last step: static friction may hold it
   bool is_listed = false;              // in an island: it may be touched in this step
   bool is_new = false;                 // there, since the islands were last solved
+  // Of the island.
+  double end_speed = 0.0;   // u_n at the end of the step, were there no impacts
+  double bounce = 0.0;      // [m/s] speed of separation, if the gap closes
+  bool is_touched = false;  // at the end of the way
   // Of the LCP being solved, and what came out.
   bool is_included = true;
   double friction = 0.0;                 // kinetic, or static
@@ -83,11 +86,6 @@ struct StepWorkspace::Parts {
   std::vector<int> local_body, island_body;
   std::vector<Vector3> way_velocity;  // of the LCP for the way
 };
-
-// The gap [m] after the step, up to third order, of bodies that move with the mean of u_n and free_speed.
-inline double free_gap(const StepContact& c, double step_size) {
-  return c.gap + 0.5 * step_size * (c.speed[0] + c.free_speed[0]) + c.bend;
-}
 
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
 

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "tumble/contact/contact_rows.hpp"
-#include "tumble/contact/restitution.hpp"
 #include "tumble/geometry/gap_rate.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/step/step_parts.hpp"
@@ -195,8 +194,6 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     c.free_speed = contact_velocity(c.rows, parts.free_velocity);
     const double curvature = is_curvature_known(c, h) ? gap_curvature(c.contact, motion_of(a), motion_of(b)) : 0.0;
     c.bend = 0.5 * h * h * curvature;
-    c.bounce = bounce_speed({c.gap, c.speed[0], c.free_speed[0] + h * curvature, h}, c.law->restitution);
-
     while (memory < state.contacts.size() && is_before(state.contacts[memory], c.contact)) ++memory;
     const bool is_known =
         memory < state.contacts.size() && state.contacts[memory].body_a == c.contact.body_a &&
