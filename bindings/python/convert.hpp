@@ -47,5 +47,7 @@ py::array_t<double> to_numpy(std::span<const double> values, py::ssize_t rows, p
 void bind_lcp(py::module_& module);
 void bind_contacts(py::module_& module);
 void bind_drop(py::module_& module);
+void bind_shape(py::module_& module);
+void bind_scene(py::module_& module);
 
 }  // namespace tumble::python

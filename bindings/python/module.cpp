@@ -117,7 +117,13 @@ double as_number(const py::handle& object, const char* field) {
 }
 
 std::string as_text(const py::handle& object, const char* field) {
-  if (py::isinstance<py::str>(object)) return py::cast<std::string>(object);
+  if (py::isinstance<py::str>(object)) {
+    Py_ssize_t size = 0;
+    const char* text = PyUnicode_AsUTF8AndSize(object.ptr(), &size);
+    if (text != nullptr) return {text, static_cast<std::size_t>(size)};
+    PyErr_Clear();  // half of a surrogate pair
+    throw std::invalid_argument(fmt::format("{}: must be valid UTF-8, got {}", field, short_repr(object)));
+  }
   throw py::type_error(fmt::format("{}: must be text, got {}", field, short_repr(object)));
 }
 
@@ -152,9 +158,11 @@ py::array_t<double> to_numpy(std::span<const double> values, py::ssize_t rows, p
 }  // namespace tumble::python
 
 PYBIND11_MODULE(_core, module) {
-  module.doc() = "Compiled part of tumble; see tumble.drop and tumble.lcp.";
+  module.doc() = "Compiled part of tumble; see tumble, tumble.drop and tumble.lcp.";
   module.attr("__version__") = TUMBLE_VERSION;
   tumble::python::bind_lcp(module);
   tumble::python::bind_contacts(module);
   tumble::python::bind_drop(module);
+  tumble::python::bind_shape(module);
+  tumble::python::bind_scene(module);
 }

@@ -22,6 +22,16 @@ TEST(ParseNumber, RefusesWhatIsNotOneNumber) {
   }
 }
 
+TEST(ParseDegrees, GivesRadians) {
+  EXPECT_EQ(parse_degrees("180 deg"), 3.14159265358979323846);
+  EXPECT_EQ(parse_degrees("-90deg"), -1.57079632679489661923);
+  EXPECT_EQ(parse_degrees("0.5 \t deg"), 0.5 / 180.0 * 3.14159265358979323846);
+  for (const char* text :
+       {"", "deg", " deg", "30", "30 degrees", "30 deg ", " 30 deg", "nan deg", "inf deg", "1 1 deg"}) {
+    EXPECT_FALSE(parse_degrees(text).has_value()) << text;
+  }
+}
+
 TEST(ToText, ReadsBackToTheSameBits) {
   test::Random random(4);
   for (int i = 0; i < 10000; ++i) {

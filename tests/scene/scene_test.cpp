@@ -213,6 +213,32 @@ TEST(Scene, DensityPutsTheOriginAtTheCentreOfMass) {
   EXPECT_EQ(triangle.pose.position, Vector2{}) << "rounding of its own sum moves no body";
 }
 
+TEST(Scene, MassIsSpreadEvenly) {
+  Body body;
+  body.parts = {{moved(square(0.2), {{0.1, 0.1}, 0.0})}};
+  Body filled = body;
+  set_mass(body, 0.3);
+  set_density(filled, 7.5);
+  EXPECT_EQ(body.mass, 0.3);
+  EXPECT_DOUBLE_EQ(body.moment_of_inertia, filled.moment_of_inertia);
+  EXPECT_EQ(body.pose, filled.pose);
+  EXPECT_THROW(set_mass(body, 0.0), std::invalid_argument);
+}
+
+TEST(Scene, EqualsWhatHoldsTheSame) {
+  const Scene scene = two_bodies();
+  EXPECT_EQ(scene, two_bodies());
+  const auto after = [&](auto change) {
+    Scene other = scene;
+    change(other);
+    return other;
+  };
+  EXPECT_NE(scene, after([](Scene& s) { s.bodies[1].pose.angle = 1e-300; }));
+  EXPECT_NE(scene, after([](Scene& s) { std::get<RoundedPolygon>(s.bodies[1].parts[0].shape).rounding = 0.1; }));
+  EXPECT_NE(scene, after([](Scene& s) { s.pairs[0].law.friction = 0.2; }));
+  EXPECT_NE(scene, after([](Scene& s) { s.bodies[1].wrenches = {{}}; }));
+}
+
 TEST(Scene, KindsHaveNames) {
   EXPECT_EQ(to_string(BodyKind::dynamic), "dynamic");
   EXPECT_EQ(to_string(BodyKind::kinematic), "kinematic");

@@ -142,6 +142,15 @@ TEST(Shape, ShortFormsHaveOuterSizes) {
   for (const Vector2 v : hexagon.vertices) EXPECT_NEAR(length(v), 0.75, 1e-15);
 }
 
+TEST(Shape, HalfPlanesTakeNormalsOfAnyLength) {
+  EXPECT_EQ(half_plane({0.0, 5.0}, 2.0), (HalfPlane{{0.0, 1.0}, 2.0}));
+  const HalfPlane slope = half_plane({-3.0, 4.0});
+  EXPECT_DOUBLE_EQ(slope.normal.x, -0.6);
+  EXPECT_EQ(half_plane(slope.normal), slope) << "one of length 1 keeps its bits";
+  EXPECT_THROW(half_plane({0.0, 0.0}), std::invalid_argument);
+  EXPECT_THROW(half_plane({std::nan(""), 1.0}), std::invalid_argument);
+}
+
 TEST(Shape, ShortFormsAreValidForAllSizes) {
   for (int corners = 3; corners <= static_cast<int>(k_max_vertices); ++corners) {
     EXPECT_EQ(error_of(regular_polygon(corners, 0.3)), "") << corners;

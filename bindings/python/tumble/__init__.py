@@ -1,5 +1,14 @@
 """Tumble: planar rigid bodies under frictional contact, one linear complementarity problem per step.
 
+Scenes
+------
+Scene
+    Bodies, the fixed world, materials, gravity; from files or built piece by piece.
+square, rectangle, regular_polygon, polygon, disc, ellipse, capsule, segment, half_plane, terrain
+    Shapes.
+Part, Knot, Wrench, Material, ContactLaw, Body
+    What a scene is made of.
+
 Modules
 -------
 drop
@@ -14,6 +23,42 @@ grade
 """
 
 from tumble import drop, lcp
-from tumble._core import NoSolution, __version__
+from tumble._core import NoSolution, Shape, __version__
+from tumble._scene import Body, ContactLaw, Knot, Material, Part, Scene, Wrench
+from tumble._shapes import (
+    capsule,
+    disc,
+    ellipse,
+    half_plane,
+    polygon,
+    rectangle,
+    regular_polygon,
+    segment,
+    square,
+    terrain,
+)
 
-__all__ = ["NoSolution", "__version__", "drop", "lcp"]
+__all__ = [
+    "Body",
+    "ContactLaw",
+    "Knot",
+    "Material",
+    "NoSolution",
+    "Part",
+    "Scene",
+    "Shape",
+    "Wrench",
+    "__version__",
+    "capsule",
+    "disc",
+    "drop",
+    "ellipse",
+    "half_plane",
+    "lcp",
+    "polygon",
+    "rectangle",
+    "regular_polygon",
+    "segment",
+    "square",
+    "terrain",
+]

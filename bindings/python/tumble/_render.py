@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tumble import _core
 from tumble._core import Parameters
+from tumble._files import complete_file
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -126,22 +126,9 @@ def _save(poses: NDArray[np.float64], params: Parameters, path: Path) -> Path:
 
 
 def _write(poses: NDArray[np.float64], params: Parameters, path: Path) -> None:
-    """The file appears under its name when it is complete."""
-    ending = path.suffix.lower()
-    handle, name = tempfile.mkstemp(suffix=ending, prefix=".render-", dir=path.parent)
-    os.close(handle)
-    unfinished = Path(name)
-    try:
-        if ending in _ANIMATIONS:
-            _write_animation(poses, params, unfinished)
-        else:
-            _write_picture(poses, params, unfinished)
-        umask = os.umask(0)
-        os.umask(umask)
-        unfinished.chmod(0o666 & ~umask)
-        unfinished.replace(path)
-    finally:
-        unfinished.unlink(missing_ok=True)
+    write = _write_animation if path.suffix.lower() in _ANIMATIONS else _write_picture
+    with complete_file(path) as unfinished:
+        write(poses, params, unfinished)
 
 
 def _write_animation(poses: NDArray[np.float64], params: Parameters, path: Path) -> None:

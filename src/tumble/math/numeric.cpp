@@ -42,6 +42,16 @@ std::optional<double> parse_fraction(std::string_view text) {
   return denominator ? std::optional(*numerator / *denominator) : std::nullopt;
 }
 
+std::optional<double> parse_degrees(std::string_view text) {
+  if (!text.ends_with("deg")) return std::nullopt;
+  text.remove_suffix(3);
+  text = text.substr(0, text.find_last_not_of(" \t") + 1);
+  const std::optional<double> degrees = parse_number(text);
+  if (!degrees || !std::isfinite(*degrees)) return std::nullopt;
+  constexpr double k_pi = 3.14159265358979323846;
+  return *degrees / 180.0 * k_pi;
+}
+
 std::string to_text(double value) { return fmt::format("{}", value); }
 
 }  // namespace tumble

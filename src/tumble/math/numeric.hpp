@@ -22,6 +22,9 @@ std::optional<double> parse_number(std::string_view text);
 // The same, or two numbers with a '/' between them: their quotient, rounded once.
 std::optional<double> parse_fraction(std::string_view text);
 
+// An angle in degrees, written "30 deg", in rad; nothing for other text. 45, 90 and 180 deg are the nearest doubles.
+std::optional<double> parse_degrees(std::string_view text);
+
 // Shortest decimal text that reads back to the same bits.
 std::string to_text(double value);
 

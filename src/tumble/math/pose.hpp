@@ -9,6 +9,8 @@ namespace tumble {
 struct Pose {
   Vector2 position;    // [m]
   double angle = 0.0;  // [rad], counter-clockwise, never wrapped
+
+  friend bool operator==(const Pose&, const Pose&) = default;
 };
 
 // A pose with the sine and cosine of its angle at hand.

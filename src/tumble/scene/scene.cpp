@@ -312,4 +312,11 @@ void set_density(Body& body, double density) {
   if (length(filled.centre_of_mass) > rounding * size) move_origin(body, filled.centre_of_mass);
 }
 
+void set_mass(Body& body, double mass) {
+  require_in(k_mass_range, "mass", mass);
+  set_density(body, 1.0);
+  body.moment_of_inertia *= mass / body.mass;
+  body.mass = mass;
+}
+
 }  // namespace tumble

@@ -20,15 +20,22 @@ struct ContactLaw {
   friend bool operator==(const ContactLaw&, const ContactLaw&) = default;
 };
 
+// Bodies that name no material have the one of this name.
+inline constexpr std::string_view k_default_material = "default";
+
 struct Material {
   std::string name;
   ContactLaw law;  // of two surfaces of this material
+
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 // A law for two materials in place of the mixing rule.
 struct MaterialPair {
   int a = 0, b = 0;  // indices into Scene::materials, a != b
   ContactLaw law;
+
+  friend bool operator==(const MaterialPair&, const MaterialPair&) = default;
 };
 
 // One shape of a body.
@@ -37,6 +44,8 @@ struct Part {
   int material = 0;            // index into Scene::materials
   double surface_speed = 0.0;  // [m/s] of a conveyor: the surface runs along its tangent, the outward normal turned
                                // right (+x on top)
+
+  friend bool operator==(const Part&, const Part&) = default;
 };
 
 enum class BodyKind { dynamic, kinematic, fixed };
@@ -48,6 +57,8 @@ std::string_view to_string(BodyKind kind);
 struct Knot {
   double time = 0.0;  // [s], increasing
   Pose pose;
+
+  friend bool operator==(const Knot&, const Knot&) = default;
 };
 
 // Force and torque on a body from a time on, until that of the next entry.
@@ -55,6 +66,8 @@ struct Wrench {
   double time = 0.0;    // [s], increasing
   Vector2 force;        // [N], at the centre of mass, in the world frame
   double torque = 0.0;  // [N m]
+
+  friend bool operator==(const Wrench&, const Wrench&) = default;
 };
 
 struct Body {
@@ -70,6 +83,8 @@ struct Body {
   std::vector<Wrench> wrenches;    // dynamic bodies
   double linear_damping = 0.0;     // [1/s] >= 0: the force -linear_damping m v
   double angular_damping = 0.0;    // [1/s] >= 0: the torque -angular_damping I omega
+
+  friend bool operator==(const Body&, const Body&) = default;
 };
 
 struct Scene {
@@ -80,6 +95,8 @@ struct Scene {
   Vector2 gravity = {0.0, -9.81};  // [m/s^2]
   double step_size = 1e-3;         // [s] > 0
   double duration = 1.0;           // [s] > 0
+
+  friend bool operator==(const Scene&, const Scene&) = default;
 };
 
 // The law between two materials (indices): that of their pair if there is one; else the geometric mean of each
@@ -111,5 +128,8 @@ void move_origin(Body& body, Vector2 origin);
 // Gives a body the mass and moment of inertia of its parts filled with `density` [kg/m^2], and moves its origin to
 // their centre of mass. A centre of mass nearer to the origin than the rounding of its own sum leaves it there.
 void set_density(Body& body, double density);
+
+// Gives a body this mass [kg], spread evenly over the area of its parts, and moves its origin to their centre of mass.
+void set_mass(Body& body, double mass);
 
 }  // namespace tumble

@@ -17,11 +17,7 @@
 namespace tumble {
 namespace {
 
-using toml_reading::shown;
-using toml_reading::suggestion;
 using toml_reading::Value;
-
-constexpr const char* k_default_material = "default";
 
 Pose read_pose(const Value& table, const Pose& otherwise) {
   return {table.vector_or("position", k_coordinate_range, otherwise.position),
@@ -29,11 +25,9 @@ Pose read_pose(const Value& table, const Pose& otherwise) {
 }
 
 HalfPlane read_half_plane(const Value& table, const Value& value) {
-  Vector2 normal = value.vector(k_coordinate_range);
+  const Vector2 normal = value.vector(k_coordinate_range);
   if (length(normal) < k_size_range.low) value.refuse_with("must be a vector other than 0");
-  // A normal written with some digits is brought to length 1; one that has it keeps its bits.
-  if (std::abs(length(normal) - 1.0) > k_unit_length_tolerance) normal = 1.0 / length(normal) * normal;
-  return {normal, table.number_or("offset", k_coordinate_range, 0.0)};
+  return half_plane(normal, table.number_or("offset", k_coordinate_range, 0.0));
 }
 
 // The shape that the key of `table` names, within the frame of the shape.
@@ -149,10 +143,7 @@ void read_mass(const Value& table, Body& body) {
     return;
   }
   if (centre) centre->refuse_with("must stand beside moment_of_inertia, which is about it");
-  const double value = body.mass;
-  table.checked([&] { set_density(body, 1.0); }, ": ");
-  body.moment_of_inertia *= value / body.mass;
-  body.mass = value;
+  table.checked([&] { set_mass(body, body.mass); }, ": ");
 }
 
 template <class Entry>
@@ -298,11 +289,12 @@ class SceneReader {
     part.shape = placed(read_shape(shape), pose);
     std::optional<Value> material = table.find("material");
     if (!material) material = body.find("material");
-    const auto found = material_index_.find(k_default_material);
+    const auto found = material_index_.find(std::string(k_default_material));
     if (material) {
       part.material = find_material(*material);
     } else {
-      part.material = found != material_index_.end() ? found->second : add_material(k_default_material, {});
+      part.material =
+          found != material_index_.end() ? found->second : add_material(std::string(k_default_material), {});
     }
     part.surface_speed = body.number_or("surface_speed", k_speed_range, 0.0);
     part.surface_speed = table.number_or("surface_speed", k_speed_range, part.surface_speed);

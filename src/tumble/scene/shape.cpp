@@ -332,6 +332,17 @@ Ellipse ellipse(double semi_axis_x, double semi_axis_y) {
   return shape;
 }
 
+HalfPlane half_plane(Vector2 normal, double offset) {
+  require_in(k_coordinate_range, "normal[0]", normal.x);
+  require_in(k_coordinate_range, "normal[1]", normal.y);
+  if (length(normal) < k_size_range.low) refuse("normal: must be a vector other than 0");
+  // One that has length 1 keeps its bits.
+  if (std::abs(length(normal) - 1.0) > k_unit_length_tolerance) normal = 1.0 / length(normal) * normal;
+  const HalfPlane shape{normal, offset};
+  check(shape);
+  return shape;
+}
+
 Shape moved(const Shape& shape, const Pose& pose) {
   return std::visit([&](const auto& s) -> Shape { return moved_shape(s, frame_of(pose), pose.angle); }, shape);
 }

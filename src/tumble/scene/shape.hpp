@@ -13,18 +13,24 @@ namespace tumble {
 struct RoundedPolygon {
   std::vector<Vector2> vertices;  // counter-clockwise, strictly convex
   double rounding = 0.0;          // [m] >= 0
+
+  friend bool operator==(const RoundedPolygon&, const RoundedPolygon&) = default;
 };
 
 struct Ellipse {
   double semi_axis_x = 0.0;  // [m] > 0, along x of `pose`
   double semi_axis_y = 0.0;
   Pose pose;  // of its centre and axes in the frame of the body
+
+  friend bool operator==(const Ellipse&, const Ellipse&) = default;
 };
 
 // All points p with normal . p <= offset: solid below the line. Fixed bodies only.
 struct HalfPlane {
   Vector2 normal;       // of length 1, out of the solid
   double offset = 0.0;  // [m]
+
+  friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
 };
 
 // Ground along a polyline, solid to the right of its direction (below it, for points from left to right). Its inner
@@ -32,6 +38,8 @@ struct HalfPlane {
 // bodies only.
 struct Terrain {
   std::vector<Vector2> points;  // two or more, no two neighbours equal
+
+  friend bool operator==(const Terrain&, const Terrain&) = default;
 };
 
 using Shape = std::variant<RoundedPolygon, Ellipse, HalfPlane, Terrain>;
@@ -45,6 +53,8 @@ RoundedPolygon regular_polygon(int corners, double circumradius, double rounding
 RoundedPolygon capsule(double length, double radius);  // length between the centres of its ends, along x
 RoundedPolygon segment(Vector2 from, Vector2 to);
 Ellipse ellipse(double semi_axis_x, double semi_axis_y);
+// The normal may have any length but 0.
+HalfPlane half_plane(Vector2 normal, double offset = 0.0);
 
 // The same shape moved within its body's frame.
 Shape moved(const Shape& shape, const Pose& pose);

@@ -17,6 +17,7 @@
 
 #include "tumble/math/numeric.hpp"
 #include "tumble/scene/check.hpp"
+#include "tumble/scene/suggestion.hpp"
 
 namespace tumble::toml_reading {
 
@@ -29,52 +30,6 @@ struct PlacedError : std::invalid_argument {
   // Nodes without a place of their own stand on the first line.
   throw PlacedError(fmt::format("{}:{}:{}: {}", name, std::max(at.line, toml::source_index{1}),
                                 std::max(at.column, toml::source_index{1}), why));
-}
-
-// A word of the file for a message: short, and without bytes that a terminal would act on.
-inline std::string shown(std::string_view word) {
-  if (word.size() <= 40 && is_plain_text(word)) return fmt::format("'{}'", word);
-  std::string text;
-  for (const char c : word.substr(0, 40)) text += (c > 31 && c < 127) ? c : '?';
-  return fmt::format("'{}{}'", text, word.size() > 40 ? "..." : "");
-}
-
-// Insertions, deletions and exchanges that make one word the other.
-inline std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
-// "; did you mean 'friction'?" if one of the words is near, else "; allowed are a, b, c".
-template <class Words>
-std::string suggestion(std::string_view word, const Words& words) {
-  std::string_view nearest;
-  std::size_t least = 1 + std::max(std::size_t{2}, word.size() / 3);
-  for (const std::string_view known : words) {
-    if (word.size() > k_max_name_bytes) break;
-    const std::size_t distance = edit_distance(word, known);
-    if (distance < least) {
-      least = distance;
-      nearest = known;
-    }
-  }
-  if (!nearest.empty()) return fmt::format("; did you mean '{}'?", nearest);
-  std::string list;
-  for (const std::string_view known : words) {
-    if (list.size() > 300) return "; allowed are " + list + ", ...";
-    list += (list.empty() ? "" : ", ") + std::string(known);
-  }
-  return list.empty() ? "" : "; allowed are " + list;
 }
 
 // A value, the path that messages call it by, and the name of the text.
@@ -129,17 +84,10 @@ class Value {
       return number(k_angle_range);
     }
     const std::string whole = text();
-    const std::size_t end = whole.find_last_not_of(" \t", whole.rfind("deg") - 1);
-    const std::optional<double> degrees = whole.ends_with("deg") && end != std::string::npos
-                                              ? parse_number(std::string_view(whole).substr(0, end + 1))
-                                              : std::nullopt;
-    if (!degrees || !std::isfinite(*degrees)) {
-      refuse_with(fmt::format("must be a number in rad or a string like \"30 deg\", got {}", shown(whole)));
-    }
-    constexpr double k_pi = 3.14159265358979323846;
-    const double value = *degrees / 180.0 * k_pi;  // 45, 90, 180 deg are exactly the nearest double
-    check_range(k_angle_range, value);
-    return value;
+    const std::optional<double> value = parse_degrees(whole);
+    if (!value) refuse_with(fmt::format("must be a number in rad or a string like \"30 deg\", got {}", shown(whole)));
+    check_range(k_angle_range, *value);
+    return *value;
   }
 
   Vector2 vector(const Range& range_x, const Range& range_y) const {
