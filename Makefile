@@ -6,7 +6,7 @@ PYTHON := $(shell command -pv python3 || echo /usr/bin/python3)
 BUILD := build
 CMAKE := cmake -S . -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 
-.PHONY: all run test bench bench-lcp bench-scenes fuzz sanitize install clean help deps-build deps-python configure
+.PHONY: all run test physics bench bench-lcp bench-scenes fuzz sanitize install clean help deps-build deps-python configure
 
 all: configure ## build the library, the program and the Python package
 	@cmake --build $(BUILD)
@@ -42,6 +42,13 @@ test: ## all tests; the last line is "N passed, N failed"
 	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_TESTS=ON -DTUMBLE_WERROR=ON >/dev/null
 	@cmake --build $(BUILD)
 	@$(PYTHON) scripts/run_tests.py --build $(BUILD)
+
+physics: ## errors of scenes against closed forms, at several step sizes; writes out/physics.md
+	@scripts/deps.sh build test
+	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_TESTS=ON >/dev/null
+	@cmake --build $(BUILD) --target tumble_physics
+	@mkdir -p out
+	@$(BUILD)/bin/tumble_physics | tee out/physics.md
 
 bench: ## benchmarks; writes out/bench.md, and what bench-scenes writes
 	@scripts/deps.sh build python bench
