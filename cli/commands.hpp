@@ -6,6 +6,7 @@
 
 #include "tumble/drop/drop.hpp"
 #include "tumble/output/write.hpp"
+#include "tumble/trajectory/simulate.hpp"
 
 namespace tumble::cli {
 
@@ -13,6 +14,7 @@ namespace tumble::cli {
 inline constexpr int k_done = 0;
 inline constexpr int k_bad_input = 2;  // also: a file that cannot be read or written
 inline constexpr int k_numerical_failure = 3;
+inline constexpr int k_interrupted = 130;  // by Ctrl-C: 128 + SIGINT, as shells have it
 
 // "tumble: <message>" on standard error; returns `exit_code`.
 int report_failure(const std::string& message, int exit_code);
@@ -39,6 +41,15 @@ struct DropOptions {
   ReportOptions report;
 };
 int run_drop(const DropOptions& options);
+
+struct RunOptions {
+  std::string input;  // "-" is standard input
+  SimulateSettings settings;
+  bool no_contacts = false;  // leave contacts out of the files
+  OutputOptions output;
+  ReportOptions report;
+};
+int run_scene(const RunOptions& options);
 
 struct RenderOptions {
   std::string input;

@@ -3,13 +3,13 @@
 #include <stdexcept>
 
 #include "commands.hpp"
+#include "input.hpp"
 #include "lcp_report.hpp"
 #include "lcp_trace.hpp"
 #include <fmt/format.h>
 
 #include "tumble/lcp/methods.hpp"
 #include "tumble/lcp/problem_text.hpp"
-#include "tumble/output/file.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -34,14 +34,9 @@ LcpSettings chosen_settings(const LcpOptions& options) {
   return settings;
 }
 
-std::string shown_name(const std::string& file) { return file == "-" ? "standard input" : file; }
+constexpr std::size_t k_max_bytes = 200'000'000;  // the largest problem that is read, at 50 bytes a number
 
-std::string read_text(const std::string& file) {
-  constexpr std::size_t max_bytes = 200'000'000;  // the largest problem that is read, at 50 bytes a number
-  return output::read_file(file == "-" ? "/dev/stdin" : file, max_bytes);
-}
-
-LcpProblem read_problem(const std::string& file) { return parse_lcp(read_text(file), shown_name(file)); }
+LcpProblem read_problem(const std::string& file) { return parse_lcp(read_input(file, k_max_bytes), input_name(file)); }
 
 const std::string& only_file(const LcpOptions& options, const char* option) {
   if (options.files.size() == 1) return options.files.front();
@@ -50,7 +45,7 @@ const std::string& only_file(const LcpOptions& options, const char* option) {
 
 LcpReport solve(const std::string& file, const LcpSettings& settings, bool all) {
   const LcpProblem problem = read_problem(file);
-  LcpReport report{shown_name(file), problem.size(), all, {}, {}};
+  LcpReport report{input_name(file), problem.size(), all, {}, {}};
   if (all) report.results = enumerate_solutions(problem, std::get<EnumerateSettings>(settings));
   // One solution is asked for, or there is none and its status says why.
   if (report.results.empty()) report.results.push_back(solve_lcp(problem, settings));
@@ -82,14 +77,14 @@ int run_trace(const LcpOptions& options, const LemkeSettings& settings) {
         fmt::format("--trace: takes problems of at most {} unknowns, got {}", k_max_trace_size, n));
   }
   const LemkeTrace trace = trace_lemke(problem, settings);
-  const LcpReport report{shown_name(file), n, false, {trace.result}, {}};
+  const LcpReport report{input_name(file), n, false, {trace.result}, {}};
   if (!options.report.quiet) fmt::print("{}\n{}", trace_text(trace, n, settings), lcp_text(report));
   return end_of_one(report);
 }
 
 int run_exact(const LcpOptions& options) {
   const std::string& file = only_file(options, "--exact");
-  return run_lcp_exact(read_text(file), shown_name(file), options);
+  return run_lcp_exact(read_input(file, k_max_bytes), input_name(file), options);
 }
 
 // A file that cannot be solved does not keep the others from it.
@@ -101,7 +96,7 @@ int run_many(const LcpOptions& options, const LcpSettings& settings) {
       reports.push_back(solve(file, settings, options.all));
     } catch (const std::exception& error) {
       report_failure(error.what(), k_bad_input);
-      reports.push_back({shown_name(file), 0, options.all, {}, error.what()});
+      reports.push_back({input_name(file), 0, options.all, {}, error.what()});
     }
     worst = std::max(worst, exit_code(reports.back()));
   }

@@ -37,6 +37,9 @@ const std::map<std::string, std::string> k_option_of_field = {{"l", "--side"},
                                                               {"height", "--height"},
                                                               {"speed", "--speed"},
                                                               {"format", "--format"},
+                                                              {"step_size", "--step-size"},
+                                                              {"duration", "--duration"},
+                                                              {"sample_every", "--sample-every"},
                                                               {"method", "--method"}};
 
 std::string with_option_name(const std::string& message) {
@@ -69,18 +72,21 @@ int picture_side(const std::string& option, const std::string& text) {
                                           output::k_largest_picture, side));
 }
 
-void add_output_options(CLI::App& app, OutputOptions& output) {
+// `kinds` are the endings.
+void add_file_options(CLI::App& app, OutputOptions& output, const std::string& kinds) {
   app.add_option("-o,--output", output.files,
-                 "File to write; its ending picks the kind: .csv .npz .h5 (data), .png .svg (many poses in "
-                 "one picture), "
-                 ".gif .mp4 (animation in real time). May be given several times")
+                 fmt::format("File to write; its ending picks the kind: {}. May be given several times", kinds))
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--format", output.pictures.format,
-                 "Kind of the files, whatever their endings: csv, npz, h5, png, svg, gif, mp4")
+  app.add_option("--format", output.pictures.format, "Kind of the files, whatever their endings, named like these")
       ->type_name("NAME");
   app.add_flag("--force", output.pictures.overwrite, "Replace files that exist");
+}
+
+void add_output_options(CLI::App& app, OutputOptions& output) {
+  add_file_options(app, output,
+                   ".csv .npz .h5 (data), .png .svg (many poses in one picture), .gif .mp4 (animation in real time)");
   add_parsed(app, "--width", output.pictures.width, &picture_side, "Width of pictures [px], 160 to 4096", "by kind",
              "COUNT");
   add_parsed(app, "--height", output.pictures.height, &picture_side, "Height of pictures [px], 160 to 4096", "by kind",
@@ -122,6 +128,32 @@ void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& com
   add_output_options(app, options.output);
   add_report_options(app, options.report);
   app.callback([&] { command = [&] { return run_drop(options); }; });
+}
+
+// 0 in the library stands for the scene's own value.
+double positive_number(const std::string& option, const std::string& text) {
+  const double value = number(option, text);
+  if (value > 0.0) return value;
+  throw std::invalid_argument(fmt::format("{}: must be > 0, got {}", option, value));
+}
+
+void add_run(CLI::App& program, RunOptions& options, std::function<int()>& command) {
+  CLI::App& app = *program.add_subcommand("run", "Simulate a scene and print how it ends");
+  app.add_option("scene", options.input, "Scene file, see docs/scenes.md; '-' reads standard input")
+      ->type_name("FILE")
+      ->required();
+  SimulateSettings& settings = options.settings;
+  add_parsed(app, "--step-size", settings.step_size, &positive_number, "Time step [s], > 0", "the scene's", "NUMBER");
+  add_parsed(app, "--duration", settings.duration, &positive_number, "Simulated time [s], > 0", "the scene's",
+             "NUMBER");
+  add_parsed(app, "--sample-every", settings.sample_every, &whole_number,
+             "Steps from one sample in the files to the next", "1", "COUNT");
+  add_parsed(app, "--solver", settings.step.solver, &contact_solver,
+             "Of contacts: exact, or fast for many bodies, which stops before the last digits", "exact", "NAME");
+  app.add_flag("--no-contacts", options.no_contacts, "Leave contacts out of the files");
+  add_file_options(app, options.output, ".csv (bodies and energies over time), .contacts.csv (contacts over time)");
+  add_report_options(app, options.report);
+  app.callback([&] { command = [&] { return run_scene(options); }; });
 }
 
 void add_render(CLI::App& program, RenderOptions& options, std::function<int()>& command) {
@@ -186,7 +218,7 @@ int after_printing(int exit_code) {
 void require_command(const CLI::App& program, const std::string& word) {
   const auto commands = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
   if (commands.empty() && !word.starts_with('-')) {
-    throw std::invalid_argument(fmt::format("there is no command '{}'; there are drop, render and lcp", word));
+    throw std::invalid_argument(fmt::format("there is no command '{}'; there are drop, run, render and lcp", word));
   }
 }
 
@@ -195,14 +227,16 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", std::string("tumble ") + TUMBLE_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Exit codes: 0 done, 2 bad input, 3 numerical failure or no solution.\n`tumble COMMAND --help` tells "
-      "more.");
+      "Exit codes: 0 done, 2 bad input, 3 numerical failure or no solution, 130 ended by Ctrl-C.\n"
+      "`tumble COMMAND --help` tells more.");
 
   DropOptions drop_options;
+  RunOptions run_options;
   RenderOptions render_options;
   LcpOptions lcp_options;
   std::function<int()> command;
   add_drop(program, drop_options, command);
+  add_run(program, run_options, command);
   add_render(program, render_options, command);
   add_lcp(program, lcp_options, command);
 

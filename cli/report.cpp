@@ -42,10 +42,6 @@ std::string state_text(const Vector3& q, const Vector3& v) {
                      q[1], q[2] * (180.0 / std::numbers::pi), v[0], v[1], v[2]);
 }
 
-std::string files_text(const std::vector<std::string>& files) {
-  return files.empty() ? "" : fmt::format("wrote {}\n", fmt::join(files, ", "));
-}
-
 std::string impact_table(const drop::Record& record) {
   constexpr std::size_t max_rows = 40;
   const std::vector<Impact> impacts = find_impacts(record);
@@ -67,6 +63,10 @@ std::string impact_table(const drop::Record& record) {
 Json json_of(const Vector3& values) { return Json::array({values[0], values[1], values[2]}); }
 
 }  // namespace
+
+std::string files_text(const std::vector<std::string>& files) {
+  return files.empty() ? "" : fmt::format("wrote {}\n", fmt::join(files, ", "));
+}
 
 std::string drop_text(const drop::Record& record, const std::vector<std::string>& files) {
   const drop::Parameters& p = record.parameters;

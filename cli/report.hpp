@@ -12,4 +12,7 @@ namespace tumble::cli {
 std::string drop_text(const drop::Record& record, const std::vector<std::string>& files);
 std::string drop_json(const drop::Record& record, const std::vector<std::string>& files);
 
+// "wrote a.csv, b.png", if there are any; the last line of a report.
+std::string files_text(const std::vector<std::string>& files);
+
 }  // namespace tumble::cli

@@ -52,4 +52,10 @@ Vector3 planar_triple(const std::string& option, const std::string& text) {
   return {number(option, parts[0]), number(option, parts[1]), angle(option, parts[2])};
 }
 
+ContactSolver contact_solver(const std::string& option, const std::string& text) {
+  if (text == "exact") return ContactSolver::exact;
+  if (text == "fast") return ContactSolver::fast;
+  refuse(option, "exact or fast", text);
+}
+
 }  // namespace tumble::cli

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "tumble/contact/island_solver.hpp"
 #include "tumble/math/vector.hpp"
 
 namespace tumble::cli {
@@ -16,5 +17,8 @@ double angle(const std::string& option, const std::string& text);
 
 // "x,y,theta": two numbers and an angle (or an angular velocity).
 Vector3 planar_triple(const std::string& option, const std::string& text);
+
+// "exact" or "fast".
+ContactSolver contact_solver(const std::string& option, const std::string& text);
 
 }  // namespace tumble::cli

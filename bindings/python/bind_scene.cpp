@@ -287,13 +287,6 @@ py::tuple law_tuple(const ContactLaw& law) {
   return py::make_tuple(law.friction, law.static_friction, law.restitution);
 }
 
-SceneHandle handle_of(Scene scene) {
-  SceneHandle handle{std::move(scene), {}, {}};
-  handle.materials = names_of(handle.scene.materials);
-  handle.bodies = names_of(handle.scene.bodies);
-  return handle;
-}
-
 SceneHandle parse(const std::string& text, const std::string& name) {
   const py::gil_scoped_release without_gil;
   return handle_of(parse_scene(text, name));
@@ -306,6 +299,13 @@ void set_title(SceneHandle& handle, const py::handle& object) {
 }
 
 }  // namespace
+
+SceneHandle handle_of(Scene scene) {
+  SceneHandle handle{std::move(scene), {}, {}};
+  handle.materials = names_of(handle.scene.materials);
+  handle.bodies = names_of(handle.scene.bodies);
+  return handle;
+}
 
 int SceneHandle::find_body(const py::handle& object) const {
   const auto count = static_cast<long>(scene.bodies.size());

@@ -20,4 +20,6 @@ struct SceneHandle {
   int find_body(const py::handle& object) const;
 };
 
+SceneHandle handle_of(Scene scene);
+
 }  // namespace tumble::python

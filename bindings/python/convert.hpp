@@ -49,5 +49,7 @@ void bind_contacts(py::module_& module);
 void bind_drop(py::module_& module);
 void bind_shape(py::module_& module);
 void bind_scene(py::module_& module);
+void bind_trajectory(py::module_& module);
+void bind_simulation(py::module_& module);
 
 }  // namespace tumble::python

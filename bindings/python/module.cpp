@@ -165,4 +165,6 @@ PYBIND11_MODULE(_core, module) {
   tumble::python::bind_drop(module);
   tumble::python::bind_shape(module);
   tumble::python::bind_scene(module);
+  tumble::python::bind_trajectory(module);
+  tumble::python::bind_simulation(module);
 }

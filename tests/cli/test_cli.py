@@ -1,6 +1,5 @@
 """The program `tumble` as a user meets it: output, files, errors, exit codes."""
 
-import csv
 import json
 import os
 import resource
@@ -11,35 +10,10 @@ import h5py
 import numpy as np
 import pytest
 from PIL import Image
+from program import PROGRAM, ROOT, refuse, rows_of, succeed, tumble
 from tumble import drop, lcp
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = Path(os.environ.get("TUMBLE_BUILD", ROOT / "build")).resolve() / "bin/tumble"
 COURSE_START = ([0.0, 1.5, np.deg2rad(30.0)], [0.0, -0.2, 0.0])
-
-
-def tumble(*words: object, cwd: Path, stdin: str = "", **options: object) -> subprocess.CompletedProcess[str]:
-    command = [str(PROGRAM), *(str(word) for word in words)]
-    return subprocess.run(command, cwd=cwd, input=stdin, capture_output=True, text=True, timeout=120, **options)
-
-
-def succeed(*words: object, cwd: Path, stdin: str = "") -> str:
-    run = tumble(*words, cwd=cwd, stdin=stdin)
-    assert run.returncode == 0 and run.stderr == "", run.stderr
-    return run.stdout
-
-
-def refuse(*words: object, cwd: Path, stdin: str = "", code: int = 2) -> str:
-    """The error text of a call that must fail: one line on standard error, nothing on standard output."""
-    run = tumble(*words, cwd=cwd, stdin=stdin)
-    assert run.returncode == code, run.stdout + run.stderr
-    assert run.stdout == "" and run.stderr.count("\n") == 1 and run.stderr.startswith("tumble: "), run.stderr
-    return run.stderr
-
-
-def rows_of(path: Path) -> list[dict[str, str]]:
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-    return list(csv.DictReader(lines))
 
 
 def test_drop_prints_each_impact_and_the_final_pose(tmp_path: Path) -> None:
@@ -145,7 +119,7 @@ def test_speed_stretches_the_animation(tmp_path: Path) -> None:
 
 
 def test_an_unknown_command_is_named(tmp_path: Path) -> None:
-    assert "there is no command 'fall'; there are drop, render and lcp" in refuse("fall", cwd=tmp_path)
+    assert "there is no command 'fall'; there are drop, run, render and lcp" in refuse("fall", cwd=tmp_path)
     assert "there is no command 'a?b'" in refuse("a\nb", cwd=tmp_path)
 
 
@@ -192,7 +166,7 @@ def test_a_command_is_needed_and_help_is_everywhere(tmp_path: Path) -> None:
     refuse(cwd=tmp_path)
     refuse("fly", cwd=tmp_path)
     assert succeed("--version", cwd=tmp_path).startswith("tumble 0.")
-    for words in (["--help"], ["drop", "--help"], ["render", "--help"], ["lcp", "--help"]):
+    for words in (["--help"], ["drop", "--help"], ["run", "--help"], ["render", "--help"], ["lcp", "--help"]):
         assert "Usage" in succeed(*words, cwd=tmp_path)
 
 

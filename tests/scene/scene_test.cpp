@@ -245,5 +245,14 @@ TEST(Scene, KindsHaveNames) {
   EXPECT_EQ(to_string(BodyKind::fixed), "fixed");
 }
 
+TEST(Scene, LabelsItsBodiesDifferently) {
+  Scene scene;
+  scene.bodies.resize(5);
+  scene.bodies[0].name = "a";
+  scene.bodies[3].name = "body2";
+  scene.bodies[4].name = "body2_";
+  EXPECT_EQ(body_labels(scene), (std::vector<std::string>{"a", "body1", "body2__", "body2", "body2_"}));
+}
+
 }  // namespace
 }  // namespace tumble

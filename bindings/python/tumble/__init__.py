@@ -6,6 +6,10 @@ Scene
     Bodies, the fixed world, materials, gravity; from files or built piece by piece.
 square, rectangle, regular_polygon, polygon, disc, ellipse, capsule, segment, half_plane, terrain
     Shapes.
+simulate
+    A scene from its start to its end, as a `Trajectory`.
+Simulation
+    A scene step by step, with forces and motions from outside.
 Part, Knot, Wrench, Material, ContactLaw, Body
     What a scene is made of.
 
@@ -37,16 +41,25 @@ from tumble._shapes import (
     square,
     terrain,
 )
+from tumble._simulate import Interrupted, SimulationWarning, simulate
+from tumble._simulation import BodyState, Simulation
+from tumble._trajectory import BodyTrajectory, Trajectory
 
 __all__ = [
     "Body",
+    "BodyState",
+    "BodyTrajectory",
     "ContactLaw",
+    "Interrupted",
     "Knot",
     "Material",
     "NoSolution",
     "Part",
     "Scene",
     "Shape",
+    "Simulation",
+    "SimulationWarning",
+    "Trajectory",
     "Wrench",
     "__version__",
     "capsule",
@@ -59,6 +72,7 @@ __all__ = [
     "rectangle",
     "regular_polygon",
     "segment",
+    "simulate",
     "square",
     "terrain",
 ]

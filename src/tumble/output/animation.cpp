@@ -95,17 +95,17 @@ struct Animation::Parts {
   std::vector<ShownImpulse> shown;
 };
 
-int count_frames(int columns, double dt, double speed, int max_frames) {
+int count_frames(double motion, double speed, int max_frames) {
   if (!(speed > 0.0 && std::isfinite(speed))) {
     throw std::invalid_argument(fmt::format("speed: must be finite and > 0, got {}", speed));
   }
-  const double duration = (columns - 1) * dt / speed;
-  // At least the first and the last column are shown, however short the run is.
-  const double frames = columns > 1 ? std::max(std::ceil(duration / k_frame_time - 1e-6), 1.0) + 1.0 : 1.0;
+  const double duration = motion / speed;
+  // At least the first and the last state are shown, however short the run is.
+  const double frames = motion > 0.0 ? std::max(std::ceil(duration / k_frame_time - 1e-6), 1.0) + 1.0 : 1.0;
   if (frames > max_frames) {
     throw std::invalid_argument(
         fmt::format("animation: at most {} s of film are made, this run needs {:.6g} s; show it faster or "
-                    "with fewer columns",
+                    "less of it",
                     max_frames * k_frame_time, duration));
   }
   return static_cast<int>(frames);
@@ -114,7 +114,7 @@ int count_frames(int columns, double dt, double speed, int max_frames) {
 Animation::Parts::Parts(const drop::Record& the_record, int width, int height, double the_speed, int max_frames)
     : record(the_record),
       speed(the_speed),
-      frames(count_frames(record.trajectory.columns, record.parameters.dt, speed, max_frames)),
+      frames(count_frames((record.trajectory.columns - 1) * record.parameters.dt, speed, max_frames)),
       scale(std::min(width / k_design_width, height / k_design_height)),
       background(Canvas::image(width, height, scale)),
       canvas(Canvas::image(width, height, scale)) {

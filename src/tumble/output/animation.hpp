@@ -17,9 +17,9 @@ inline constexpr double k_hold_time = 0.8;    // of the last picture [s]
 inline constexpr int k_max_gif_frames = 3'000;
 inline constexpr int k_max_mp4_frames = 30'000;
 
-// How many pictures a run of so many columns has; `speed` is seconds of motion per second of film. Throws
+// How many pictures a motion of so many seconds has; `speed` is seconds of motion per second of film. Throws
 // std::invalid_argument if they are more than `max_frames`.
-int count_frames(int columns, double dt, double speed, int max_frames);
+int count_frames(double motion, double speed, int max_frames);
 
 // Draws the pictures one after the other. Picture i shows the column nearest to the time i * k_frame_time *
 // speed, the last one the last column. Impulses since the picture before appear and fade, so that one step of

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,24 +18,29 @@
 #include "tumble/output/npz.hpp"
 #include "tumble/output/record_fields.hpp"
 #include "tumble/output/strobe.hpp"
+#include "tumble/output/trajectory_csv.hpp"
 
 namespace tumble::output {
 namespace {
 
-enum class Format { csv, npz, h5, gif, mp4, png, svg };
+enum class Format { csv, contacts_csv, npz, h5, gif, mp4, png, svg };
 
 struct NamedFormat {
-  std::string_view name;
+  std::string_view name;  // the ending of a file, too
   Format format;
 };
+using Formats = std::span<const NamedFormat>;
 
-constexpr std::array<NamedFormat, 7> k_formats = {{{"csv", Format::csv},
-                                                   {"npz", Format::npz},
-                                                   {"h5", Format::h5},
-                                                   {"gif", Format::gif},
-                                                   {"mp4", Format::mp4},
-                                                   {"png", Format::png},
-                                                   {"svg", Format::svg}}};
+constexpr std::array<NamedFormat, 7> k_record_formats = {{{"csv", Format::csv},
+                                                          {"npz", Format::npz},
+                                                          {"h5", Format::h5},
+                                                          {"gif", Format::gif},
+                                                          {"mp4", Format::mp4},
+                                                          {"png", Format::png},
+                                                          {"svg", Format::svg}}};
+
+constexpr std::array<NamedFormat, 2> k_trajectory_formats = {{{"contacts.csv", Format::contacts_csv},  // before csv
+                                                              {"csv", Format::csv}}};
 
 constexpr std::size_t k_max_bytes_read = std::size_t{4} << 30;  // 4 GiB
 
@@ -45,31 +51,42 @@ struct Size {
 constexpr Size k_gif_size = {640, 400};
 constexpr Size k_mp4_size = {1280, 720};
 
-// The format behind a name or an ending, in any case.
-const NamedFormat* find_format(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
+std::string in_lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto found =
-      std::find_if(k_formats.begin(), k_formats.end(), [&](const NamedFormat& f) { return f.name == name; });
-  return found == k_formats.end() ? nullptr : &*found;
+  return text;
 }
 
-std::string ending_of(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  return ending.empty() ? ending : ending.substr(1);
-}
-
-Format format_of(const std::filesystem::path& path, const WriteOptions& options) {
-  if (!options.format.empty()) {
-    const NamedFormat* found = find_format(options.format);
-    if (found != nullptr) return found->format;
-    throw std::invalid_argument(
-        fmt::format("format: must be one of csv, npz, h5, gif, mp4, png, svg, got '{}'", path_text(options.format)));
+// "csv, npz or h5", each behind `mark`.
+std::string names_of(Formats formats, std::string_view mark) {
+  std::string names;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    const char* before = i == 0 ? "" : i + 1 == formats.size() ? " or " : ", ";
+    names += fmt::format("{}{}{}", before, mark, formats[i].name);
   }
-  const NamedFormat* found = find_format(ending_of(path));
-  if (found != nullptr) return found->format;
+  return names;
+}
+
+// By the ending of the name, in any case.
+const NamedFormat* find_by_ending(const std::filesystem::path& path, Formats formats) {
+  const std::string name = in_lower_case(path.filename().string());
+  for (const NamedFormat& format : formats) {
+    if (name.size() > format.name.size() + 1 && name.ends_with(fmt::format(".{}", format.name))) return &format;
+  }
+  return nullptr;
+}
+
+Format format_of(const std::filesystem::path& path, const WriteOptions& options, Formats formats) {
+  if (options.format.empty()) {
+    const NamedFormat* found = find_by_ending(path, formats);
+    if (found != nullptr) return found->format;
+    throw std::invalid_argument(fmt::format("{}: the name must end in {}", path_text(path), names_of(formats, ".")));
+  }
+  for (const NamedFormat& format : formats) {
+    if (in_lower_case(options.format) == format.name) return format.format;
+  }
   throw std::invalid_argument(
-      fmt::format("{}: the name must end in .csv, .npz, .h5, .gif, .mp4, .png or .svg", path_text(path)));
+      fmt::format("format: must be {}, got '{}'", names_of(formats, ""), path_text(options.format)));
 }
 
 void check_size(const char* field, int value) {
@@ -95,7 +112,7 @@ Size animation_size(const WriteOptions& options, Format format) {
 void check_options(const std::filesystem::path& path, const WriteOptions& options, Format format) {
   check_size("width", options.width);
   check_size("height", options.height);
-  count_frames(1, 1.0, options.speed, 1);
+  count_frames(0.0, options.speed, 1);
   if (format == Format::h5) check_hdf5();
   if (format != Format::mp4) return;
   check_ffmpeg();
@@ -110,18 +127,40 @@ void check_options(const std::filesystem::path& path, const WriteOptions& option
   }
 }
 
-void check_length(const WriteOptions& options, Format format, int columns, double dt) {
-  if (format == Format::gif) count_frames(columns, dt, options.speed, k_max_gif_frames);
-  if (format == Format::mp4) count_frames(columns, dt, options.speed, k_max_mp4_frames);
+void check_length(const WriteOptions& options, Format format, double duration) {
+  if (format == Format::gif) count_frames(duration, options.speed, k_max_gif_frames);
+  if (format == Format::mp4) count_frames(duration, options.speed, k_max_mp4_frames);
 }
 
-// A long record is never in memory as text as a whole.
+double duration_of(const drop::Parameters& parameters, int columns) { return (columns - 1) * parameters.dt; }
+
+// `rows(first, last)` is the text of some rows: that of all of a long run is never in memory.
+template <class Rows>
+void write_table(OutputFile& file, const std::string& header, std::size_t count, Rows rows) {
+  constexpr std::size_t rows_at_once = 64;
+  file.write(header);
+  for (std::size_t k = 0; k < count; k += rows_at_once) file.write(rows(k, std::min(k + rows_at_once, count)));
+}
+
 void write_csv(const drop::Record& record, OutputFile& file) {
-  constexpr int k_rows_at_once = 4096;
-  file.write(csv_header(record));
-  for (int k = 0; k < record.trajectory.columns; k += k_rows_at_once) {
-    file.write(csv_rows(record, k, k + std::min(k_rows_at_once, record.trajectory.columns - k)));
-  }
+  write_table(file, csv_header(record), record.steps.size(), [&](std::size_t first, std::size_t last) {
+    return csv_rows(record, static_cast<int>(first), static_cast<int>(last));
+  });
+}
+
+void write_csv(const Trajectory& trajectory, OutputFile& file) {
+  write_table(file, samples_csv_header(trajectory), trajectory.time.size(),
+              [&](std::size_t first, std::size_t last) { return samples_csv_rows(trajectory, first, last); });
+}
+
+void write_contacts_csv(const Trajectory& trajectory, OutputFile& file) {
+  write_table(file, contacts_csv_header(trajectory), trajectory.contacts.size(),
+              [&](std::size_t first, std::size_t last) { return contacts_csv_rows(trajectory, first, last); });
+}
+
+void check_writable(const std::filesystem::path& path, const WriteOptions& options, Format format) {
+  check_options(path, options, format);
+  check_target(path, options.overwrite);
 }
 
 std::string to_bytes(const drop::Record& record, const WriteOptions& options, Format format) {
@@ -133,6 +172,7 @@ std::string to_bytes(const drop::Record& record, const WriteOptions& options, Fo
     case Format::png: return to_strobe_png(record, options.width, options.height);
     case Format::svg: return to_strobe_svg(record, options.width, options.height);
     case Format::csv:
+    case Format::contacts_csv:
     case Format::mp4: break;
   }
   return "";
@@ -141,22 +181,20 @@ std::string to_bytes(const drop::Record& record, const WriteOptions& options, Fo
 }  // namespace
 
 void check_writable(const std::filesystem::path& path, const WriteOptions& options) {
-  const Format format = format_of(path, options);
-  check_options(path, options, format);
-  check_target(path, options.overwrite);
+  check_writable(path, options, format_of(path, options, k_record_formats));
 }
 
 void check_writable(const std::filesystem::path& path, const WriteOptions& options,
                     const drop::Parameters& parameters) {
   check_writable(path, options);
-  check_length(options, format_of(path, options), parameters.columns, parameters.dt);
+  check_length(options, format_of(path, options, k_record_formats), duration_of(parameters, parameters.columns));
 }
 
 void write_record(const drop::Record& record, const std::filesystem::path& path, const WriteOptions& options) {
   check_record(record);
   check_writable(path, options);
-  const Format format = format_of(path, options);
-  check_length(options, format, record.trajectory.columns, record.parameters.dt);
+  const Format format = format_of(path, options, k_record_formats);
+  check_length(options, format, duration_of(record.parameters, record.trajectory.columns));
   if (format != Format::csv && format != Format::mp4) {
     write_file_atomically(path, to_bytes(record, options, format), options.overwrite);
     return;
@@ -175,8 +213,28 @@ void write_record(const drop::Record& record, const std::filesystem::path& path,
   file.commit();
 }
 
+void check_trajectory_writable(const std::filesystem::path& path, const WriteOptions& options, double duration) {
+  const Format format = format_of(path, options, k_trajectory_formats);
+  check_writable(path, options, format);
+  check_length(options, format, duration);
+}
+
+void write_trajectory(const Trajectory& trajectory, const std::filesystem::path& path, const WriteOptions& options) {
+  const Format format = format_of(path, options, k_trajectory_formats);
+  check_trajectory_writable(path, options, trajectory.time.back());
+  OutputFile file(path, options.overwrite);
+  if (format == Format::csv) write_csv(trajectory, file);
+  if (format == Format::contacts_csv) write_contacts_csv(trajectory, file);
+  file.commit();
+}
+
+ContactUse contact_use(const std::filesystem::path& path, const WriteOptions& options) {
+  const Format format = format_of(path, options, k_trajectory_formats);
+  return format == Format::csv ? ContactUse::none : format == Format::contacts_csv ? ContactUse::all : ContactUse::part;
+}
+
 drop::Record read_record(const std::filesystem::path& path) {
-  const NamedFormat* found = find_format(ending_of(path));
+  const NamedFormat* found = find_by_ending(path, k_record_formats);
   const std::string name = path_text(path);
   if (found != nullptr && found->format == Format::csv)
     return parse_record_csv(read_file(path, k_max_bytes_read), name);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -232,6 +233,19 @@ void check_body(const Body& body, std::size_t material_count) {
   require_in(k_damping_range, "linear_damping", body.linear_damping);
   require_in(k_damping_range, "angular_damping", body.angular_damping);
   check_kind(body);
+}
+
+std::vector<std::string> body_labels(const Scene& scene) {
+  std::set<std::string> taken;
+  for (const Body& body : scene.bodies) taken.insert(body.name);
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    std::string label = scene.bodies[i].name;
+    if (label.empty()) label = fmt::format("body{}", i);
+    while (scene.bodies[i].name.empty() && taken.contains(label)) label += '_';
+    labels.push_back(std::move(label));
+  }
+  return labels;
 }
 
 void validate(const Scene& scene) {

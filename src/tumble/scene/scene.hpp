@@ -103,6 +103,9 @@ struct Scene {
 // coefficient, which is exactly the material's own law for two of a kind.
 ContactLaw contact_law(const Scene& scene, int material_a, int material_b);
 
+// A word for each body, no two the same: its name; "body3" for bodies[3] if it has none.
+std::vector<std::string> body_labels(const Scene& scene);
+
 // Throws std::invalid_argument naming body, part, field, value and what is allowed: NaN, infinity, an index that names
 // nothing, a mass that is not positive, a half-plane or terrain on a dynamic body, times that do not increase, ...
 void validate(const Scene& scene);

@@ -1,0 +1,146 @@
+"""`simulate`: a scene from its start to its end."""
+
+from __future__ import annotations
+
+import sys
+import time
+import warnings
+
+from tumble import _core
+from tumble._scene import Scene
+from tumble._trajectory import Trajectory
+
+_SECONDS_BETWEEN_LOOKS = 0.05  # for Ctrl-C and the progress line
+_SECONDS_BEFORE_PROGRESS = 1.0  # what takes less needs none
+_SECONDS_BETWEEN_LINES = 0.2
+
+
+class SimulationWarning(UserWarning):
+    """A run created energy, or ended early because a step could not be solved."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during `simulate`; `trajectory` holds what was computed until then, its last sample the state it was in."""
+
+    def __init__(self, trajectory: Trajectory) -> None:
+        super().__init__(f"interrupted at {trajectory.time[-1]:g} s; .trajectory of this exception holds the run so far")
+        self.trajectory = trajectory
+
+
+def simulate(
+    scene: Scene,
+    *,
+    step_size: float | None = None,
+    duration: float | None = None,
+    sample_every: int = 1,
+    solver: str = "exact",
+    num_sweeps: int = 10,
+    contacts: bool = True,
+    progress: bool = False,
+) -> Trajectory:
+    """Simulate a scene.
+
+    Other Python threads run meanwhile.
+
+    Parameters
+    ----------
+    scene : Scene
+    step_size, duration : float, optional
+        [s], 1e-12 to 1e12, up to 1e9 steps; those of the scene if left out. The last step reaches `duration` or ends
+        less than a step behind it.
+    sample_every : int
+        Steps from one sample to the next. The last step is always one.
+    solver : str
+        "exact": the LCP of each step to a residual of 1e-10 and mostly to round-off, or a status that says it is not.
+        "fast": `num_sweeps` sweeps of block Gauss-Seidel, for many bodies at once.
+    num_sweeps : int
+        Of the fast solver.
+    contacts : bool
+        Keep the contacts of every step.
+    progress : bool
+        Show on the terminal how far it is, if standard error is one and it takes longer than a second.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    ValueError
+        Naming the argument, its value and the allowed range.
+    Interrupted
+        (a KeyboardInterrupt) at Ctrl-C. Its `trajectory` holds what was computed; in an interactive session it is
+        ``sys.last_value.trajectory`` afterwards.
+
+    Warns
+    -----
+    SimulationWarning
+        If a step created energy, or could not be solved: the run ends with that step and its status.
+
+    >>> import tumble
+    >>> scene = tumble.Scene(duration=0.3)
+    >>> ball = scene.add_body(tumble.disc(0.1), mass=1, name="ball", position=(0, 2), velocity=(3, 0))
+    >>> trajectory = tumble.simulate(scene)
+    >>> trajectory
+    <Trajectory: 1 bodies, 301 samples to 0.3 s, complete>
+    >>> x, y, angle = trajectory["ball"].pose[-1]
+    >>> print(f"{x:.6f} {y:.6f}")  # 3 t, 2 - g t^2 / 2
+    0.900000 1.558550
+    """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: must be a tumble.Scene, got {type(scene).__name__}")
+    run = _core.Run(scene._core, step_size, duration, sample_every, solver, num_sweeps, contacts)
+    line = _ProgressLine(run) if progress and sys.stderr.isatty() else None
+    try:
+        while not run.is_done:
+            run.run_for(_SECONDS_BETWEEN_LOOKS)
+            if line is not None:
+                line.show()
+    except KeyboardInterrupt:
+        raise Interrupted(Trajectory(run.finish(), contacts)) from None
+    finally:
+        if line is not None:
+            line.clear()
+    trajectory = Trajectory(run.finish(), contacts)
+    for text in _remarks(trajectory):
+        warnings.warn(text, SimulationWarning, stacklevel=2)
+    return trajectory
+
+
+def _remarks(trajectory: Trajectory) -> list[str]:
+    texts = []
+    if trajectory.status != "solved":
+        texts.append(
+            f"the run ended at {trajectory.time[-1]:g} s: step {trajectory.num_steps} is {trajectory.status}, "
+            f"residual {trajectory.residual:.1e}"
+        )
+    if trajectory.num_creating_steps > 0:
+        texts.append(
+            f"{trajectory.num_creating_steps} steps created {trajectory.created_energy:.3g} J in all, the first at "
+            f"{trajectory.first_creation:g} s"
+        )
+    return texts
+
+
+class _ProgressLine:
+    """One line on the terminal, written over and over."""
+
+    def __init__(self, run: _core.Run) -> None:
+        self._run = run
+        self._start = time.monotonic()
+        self._shown = 0.0
+
+    def show(self) -> None:
+        passed = time.monotonic() - self._start
+        if passed < _SECONDS_BEFORE_PROGRESS or passed - self._shown < _SECONDS_BETWEEN_LINES or self._run.step == 0:
+            return
+        self._shown = passed
+        share = self._run.step / self._run.num_steps
+        left = passed / share - passed
+        sys.stderr.write(f"\r\x1b[K{100 * share:5.1f} %  {self._run.time:.4g} s  {left:.0f} s left")
+        sys.stderr.flush()
+
+    def clear(self) -> None:
+        if self._shown > 0.0:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
