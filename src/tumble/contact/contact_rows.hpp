@@ -26,9 +26,9 @@ inline ContactPlaces contact_places(const Contact& contact, bool is_apart) {
 // J_n and J_t of the bodies at (frame origins) centre_a, centre_b, r = place - centre:
 //   J_n = (n_x, n_y, r x n),  J_t = (t_x, t_y, r x t),  t the normal turned right; for a with the opposite sign.
 // Offsets and friction are 0, bodies those of the contact.
-inline BodyContact contact_rows(const Contact& contact, bool is_apart, Vector2 centre_a, Vector2 centre_b) {
+inline BodyContact contact_rows(const Contact& contact, const ContactPlaces& places, Vector2 centre_a,
+                                Vector2 centre_b) {
   const Vector2 n = contact.normal, t = turned_right(n);
-  const ContactPlaces places = contact_places(contact, is_apart);
   const Vector2 r_a = places.on_a - centre_a, r_b = places.on_b - centre_b;
   BodyContact rows;
   rows.body_a = contact.body_a;

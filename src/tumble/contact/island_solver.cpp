@@ -116,6 +116,7 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
     }
   }
   search.impulses = parts_->best_impulses;
+  search.project();
   modes = parts_->best_modes;
   impulses = search.impulses;
   velocity = search.find_velocities();

@@ -18,6 +18,9 @@ constexpr double k_energy_round_off = 1e-12;
 constexpr double k_gap_round_off = 1e-12;
 // [-] of the largest speed at the contacts of an island: what approaches or slips slower is at rest.
 constexpr double k_speed_round_off = 1e-12;
+// [-] of the same: impacts that follow from others in the same step, and approach slower, wait for the next one.
+constexpr double k_impact_share = 1e-9;
+constexpr int k_max_impact_rounds = 8;  // the last without restitution
 
 struct Island {
   Parts& parts;
@@ -25,7 +28,7 @@ struct Island {
   double h;
   const StepSettings& settings;
   IslandOutcome outcome;
-  double rest_speed = 0.0;  // [m/s]
+  double largest_speed = 0.0, rest_speed = 0.0;  // [m/s]
 
   StepContact& at(int i) const { return parts.contacts[static_cast<Index>(i)]; }
 
@@ -199,10 +202,14 @@ struct Island {
   bool land() {
     stand(parts.next_velocity);
     set_travel(parts.next_velocity);
-    return std::none_of(contacts.begin(), contacts.end(), [&](int i) {
+    const bool closes = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
       const StepContact& c = at(i);
       return may_bounce(c) && c.gap + c.bend + h * contact_velocity(c.rows, parts.next_velocity)[0] < 0.0;
     });
+    if (closes) return false;
+    note_forces();
+    add_work(parts.velocity, parts.next_velocity);
+    return true;
   }
 
   // What bounces is approached under the forces and the contacts that stand.
@@ -233,9 +240,9 @@ struct Island {
     }
   }
 
-  // One LCP for the velocities after the impacts at the end of the way. Contacts that are opening, and those that only
-  // the impacts of others have closed, are not part of it: if it drives their bodies together, they bounce in the next
-  // step. As parts of it they would stop dead, or push bodies that part already.
+  // The velocities after the impacts at the end of the way, by one LCP for those that bounce by themselves and those
+  // that stand, then by one for each round of impacts that follow from these. Contacts that are opening are not part of
+  // an LCP: it would push bodies together that part. Where it drives them together, they bounce in the next round.
   void bounce() {
     find_approach();
     find_way();
@@ -245,10 +252,56 @@ struct Island {
       const bool bounces = is_bouncing(c);
       const bool stands = !may_bounce(c) && c.end_speed <= rest_speed;
       c.is_included = c.is_touched && (bounces || stands);
-      c.offset = c.is_included && bounces ? -c.bounce : 0.0;
+      c.offset = bounces ? -c.bounce : 0.0;
       c.restitution = c.is_included && bounces ? c.law->restitution : 0.0;
     }
     solve_with_statics(parts.free_velocity, parts.next_velocity);
+    note_forces();
+    add_work(parts.velocity, parts.next_velocity);
+    for (int round = 1; round <= k_max_impact_rounds && list_next_impacts(round < k_max_impact_rounds); ++round) {
+      parts.way_velocity = parts.next_velocity;
+      solve_with_statics(parts.way_velocity, parts.next_velocity);
+      add_work(parts.way_velocity, parts.next_velocity);
+    }
+  }
+
+  // Contacts that are touched and do not open now; false if none of them closes. Without restitution the round is the
+  // last.
+  bool list_next_impacts(bool with_restitution) {
+    bool has_impact = false;
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      const double speed = contact_velocity(c.rows, parts.next_velocity)[0];
+      c.is_included = c.is_touched && (speed <= rest_speed || !with_restitution);
+      const bool is_impact = c.is_touched && speed < -k_impact_share * largest_speed;
+      const double restitution = is_impact && with_restitution ? c.law->restitution : 0.0;
+      c.offset = restitution * speed;
+      c.restitution = std::max(c.restitution, restitution);
+      has_impact = has_impact || is_impact;
+    }
+    return has_impact;
+  }
+
+  // The velocities that the forces of the step have worked on.
+  void note_forces() {
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      parts.force_velocity[b] = parts.next_velocity[b];
+    }
+  }
+
+  // Impulses of an LCP, and what they did.
+  void add_work(const Velocities& from, const Velocities& to) {
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
+      const auto u = contact_velocity(c.rows, from), next = contact_velocity(c.rows, to);
+      for (Index j = 0; j < 2; ++j) {
+        c.total_impulse[j] += c.impulse[j];
+        c.work[j] += 0.5 * c.impulse[j] * (u[j] + next[j]);
+      }
+      c.impact_mode = c.mode;
+    }
   }
 
   // The larger of the contact's A_nn and A_tt.
@@ -281,19 +334,15 @@ struct Island {
     };
     for (const int i : contacts) {
       const StepContact& c = at(i);
-      if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
-      const auto u = contact_velocity(c.rows, parts.next_velocity);
-      add(0.5 * c.impulse[0] * c.speed[0]);
-      add(0.5 * c.impulse[0] * u[0]);
-      add(0.5 * c.impulse[1] * c.speed[1]);
-      add(0.5 * c.impulse[1] * u[1]);
-      const double push = c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1];
+      add(c.work[0]);
+      add(c.work[1]);
+      const double push = c.total_impulse[0] * c.total_impulse[0] + c.total_impulse[1] * c.total_impulse[1];
       sum.size += push * response_of(c);  // what the impulse alone would do: velocities are rounded sums of it
     }
     for (const int body : parts.island_body) {
       const auto b = static_cast<Index>(body);
       for (Index j = 0; j < 3; ++j) {
-        add(parts.force[b][j] * (0.5 * h * (parts.velocity[b][j] + parts.next_velocity[b][j]) - parts.travel[b][j]));
+        add(parts.force[b][j] * (0.5 * h * (parts.velocity[b][j] + parts.force_velocity[b][j]) - parts.travel[b][j]));
         sum.size += 0.5 * parts.mass[b][j] * parts.velocity[b][j] * parts.velocity[b][j];
       }
     }
@@ -304,15 +353,18 @@ struct Island {
 }  // namespace
 
 IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const StepSettings& settings) {
-  Island island{parts, contacts, h, settings, {}, 0.0};
+  Island island{parts, contacts, h, settings, {}};
   for (const int i : contacts) {
     StepContact& c = island.at(i);
     c.restitution = 0.0;
+    c.impact_mode = ContactMode::open;
+    c.work = c.total_impulse = {};
     const double speed =
         std::max({std::abs(c.speed[0]), std::abs(c.free_speed[0]), std::abs(c.speed[1]), std::abs(c.free_speed[1])});
-    island.rest_speed = std::max(island.rest_speed, k_speed_round_off * speed);
+    island.largest_speed = std::max(island.largest_speed, speed);
     island.set_bounce(c, c.free_speed[0]);
   }
+  island.rest_speed = k_speed_round_off * island.largest_speed;
   if (island.is_free()) {
     for (const int i : contacts) {
       StepContact& c = island.at(i);
@@ -330,6 +382,9 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
   for (const int i : contacts) {
     StepContact& c = island.at(i);
     c.speed_after = contact_velocity(c.rows, parts.next_velocity);
+    if (c.mode == ContactMode::open) c.mode = c.impact_mode;  // of an earlier round
+    if (c.friction == 0.0 && c.mode != ContactMode::open)     // no friction tells which way it slips
+      c.mode = c.speed_after[1] < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
     c.sticks = c.mode != ContactMode::open && !island.slips(c, parts.next_velocity);
     island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;
   }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "tumble/contact/contact_rows.hpp"
 #include "tumble/contact/island_solver.hpp"
 #include "tumble/geometry/detect_contacts.hpp"
 #include "tumble/lcp/contact_system.hpp"
@@ -17,6 +18,8 @@ namespace tumble {
 struct StepContact {
   Contact contact;
   const ContactLaw* law = nullptr;
+  Vector2 tangent;
+  ContactPlaces places;                // of the impulse
   BodyContact rows;                    // bodies: index into the scene, -1 unless dynamic; offsets: of the motion of
                                        // kinematic bodies and conveyors
   std::array<double, 2> speed{};       // at the start of the step
@@ -34,11 +37,14 @@ struct StepContact {
   bool is_touched = false;  // at the end of the way
   // Of the LCP being solved, and what came out.
   bool is_included = true;
-  double friction = 0.0;                 // kinetic, or static
-  bool is_static = false;                // friction is the static one, and that is larger
-  double offset = 0.0;                   // of u_n
-  ContactMode mode = ContactMode::open;  // in: where to start
-  std::array<double, 2> impulse{};       // in: where to start
+  double friction = 0.0;                        // kinetic, or static
+  bool is_static = false;                       // friction is the static one, and that is larger
+  double offset = 0.0;                          // of u_n
+  ContactMode mode = ContactMode::open;         // in: where to start
+  std::array<double, 2> impulse{};              // in: where to start
+  std::array<double, 2> total_impulse{};        // of all LCPs for velocities
+  std::array<double, 2> work{};                 // [J] of these
+  ContactMode impact_mode = ContactMode::open;  // in the last of these that had an impulse
   std::array<double, 2> speed_after{};
   bool sticks = false;       // closed, without slip
   double restitution = 0.0;  // that was at work
@@ -72,8 +78,9 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> free_velocity;    // v_f
   std::vector<Vector3> middle_velocity;  // (v + v_f) / 2
   std::vector<Vector3> next_velocity;
-  std::vector<Vector3> travel;  // x, y, angle
-  std::vector<Vector3> shift;   // what `separate` adds to it; 0 outside
+  std::vector<Vector3> force_velocity;  // after the forces and the first impacts: forces work along its mean with v
+  std::vector<Vector3> travel;          // x, y, angle
+  std::vector<Vector3> shift;           // what `separate` adds to it; 0 outside
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;

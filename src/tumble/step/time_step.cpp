@@ -92,7 +92,7 @@ void predict(const Scene& scene, double h, const State& state, Parts& parts) {
     }
     if (body.angular_damping > 0.0) free[2] /= 1.0 + h * body.angular_damping;
     parts.velocity[i] = v;
-    parts.free_velocity[i] = parts.next_velocity[i] = free;
+    parts.free_velocity[i] = parts.next_velocity[i] = parts.force_velocity[i] = free;
     for (Index j = 0; j < 3; ++j) {
       parts.middle_velocity[i][j] = 0.5 * (v[j] + free[j]);
       parts.travel[i][j] = h * parts.middle_velocity[i][j];
@@ -147,10 +147,18 @@ void share_friction_line(StepContact& first, StepContact& second) {
   const bool is_same_pair =
       c.body_a == d.body_a && c.body_b == d.body_b && c.part_a == d.part_a && c.part_b == d.part_b;
   if (!is_same_pair || dot(c.normal, d.normal) < nearly_parallel) return;
-  const BodyContact& nearer = c.gap <= d.gap ? first.rows : second.rows;
-  BodyContact& other = c.gap <= d.gap ? second.rows : first.rows;
-  other.tangent_a = nearer.tangent_a;
-  other.tangent_b = nearer.tangent_b;
+  const StepContact& nearer = c.gap <= d.gap ? first : second;
+  StepContact& other = c.gap <= d.gap ? second : first;
+  other.tangent = nearer.tangent;
+  other.rows.tangent_a = nearer.rows.tangent_a;
+  other.rows.tangent_b = nearer.rows.tangent_b;
+  // Where the line of its own normal meets that of the friction.
+  const Vector2 n = other.contact.normal, t = other.tangent;
+  const auto move = [&](Vector2& place, Vector2 on_line) {
+    place = place + cross(on_line - place, t) / cross(n, t) * n;
+  };
+  move(other.places.on_a, nearer.places.on_a);
+  move(other.places.on_b, nearer.places.on_b);
 }
 
 // [m] Gaps below are closed.
@@ -183,7 +191,9 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     c.law = &law_of(scene, parts, c.contact);
     c.gap = c.contact.gap > position_round_off(parts, c.contact) ? c.contact.gap : 0.0;
     const auto a = static_cast<Index>(c.contact.body_a), b = static_cast<Index>(c.contact.body_b);
-    c.rows = contact_rows(c.contact, c.gap > 0.0, parts.frames[a].position, parts.frames[b].position);
+    c.tangent = turned_right(c.contact.normal);
+    c.places = contact_places(c.contact, c.gap > 0.0);
+    c.rows = contact_rows(c.contact, c.places, parts.frames[a].position, parts.frames[b].position);
     if (i > 0) share_friction_line(parts.contacts[i - 1], c);
   }
   Index memory = 0;
@@ -322,14 +332,14 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
       c.speed_after = contact_velocity(c.rows, parts.next_velocity);
       c.mode = ContactMode::open;
       c.sticks = false;
-      c.impulse = {};
+      c.impulse = c.total_impulse = c.work = {};
     }
-    report.contacts.push_back({c.contact, *c.law, c.speed[0], c.speed[1], c.speed_after[0], c.speed_after[1],
-                               c.impulse[0], c.impulse[1], c.restitution, c.sticks ? ContactMode::stick : c.mode});
-    if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
-    energy.impact_loss -= 0.5 * c.impulse[0] * (c.speed[0] + c.speed_after[0]);
-    energy.friction_loss -= 0.5 * c.impulse[1] * (c.speed[1] + c.speed_after[1]);
-    energy.external_work -= c.impulse[0] * c.rows.offset + c.impulse[1] * c.rows.tangent_offset;
+    report.contacts.push_back({c.contact, c.tangent, c.places.on_a, c.places.on_b, *c.law, c.speed[0], c.speed[1],
+                               c.speed_after[0], c.speed_after[1], c.impulse[0], c.impulse[1], c.restitution,
+                               c.sticks ? ContactMode::stick : c.mode});
+    energy.impact_loss -= c.work[0];
+    energy.friction_loss -= c.work[1];
+    energy.external_work -= c.total_impulse[0] * c.rows.offset + c.total_impulse[1] * c.rows.tangent_offset;
   }
   for (Index i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
@@ -338,7 +348,7 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
     const Vector2 x = state.bodies[i].pose.position;
     energy.potential -= body.mass * (scene.gravity.x * x.x + scene.gravity.y * x.y);
     for (Index j = 0; j < 3; ++j) {
-      const double middle = 0.5 * h * (v[j] + next[j]);
+      const double middle = 0.5 * h * (v[j] + parts.force_velocity[i][j]);
       energy.kinetic += 0.5 * parts.mass[i][j] * next[j] * next[j];
       energy.external_work += parts.wrench[i][j] * travel[j];
       energy.stabilisation_work += parts.force[i][j] * (middle - travel[j]);
@@ -368,8 +378,8 @@ StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
   }
   frames.resize(n);
   reach.assign(n, 0.0);
-  for (std::vector<Vector3>* values :
-       {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity, &travel, &shift, &way_velocity}) {
+  for (std::vector<Vector3>* values : {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity,
+                                       &travel, &shift, &way_velocity, &force_velocity}) {
     values->assign(n, Vector3{});
   }
   parent.resize(n);
@@ -403,7 +413,7 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
     if (is_within_reach(scene, parts) || look == k_max_looks) break;
     for (Index i = 0; i < scene.bodies.size(); ++i) {
       if (scene.bodies[i].kind != BodyKind::dynamic) continue;
-      parts.next_velocity[i] = parts.free_velocity[i];
+      parts.next_velocity[i] = parts.force_velocity[i] = parts.free_velocity[i];
       for (Index j = 0; j < 3; ++j) parts.travel[i][j] = h * parts.middle_velocity[i][j];
     }
   }
