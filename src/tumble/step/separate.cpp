@@ -20,7 +20,7 @@ void for_bodies(const BodyContact& rows, const F& f) {
 }
 
 double overlap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
-  double gap = c.contact.gap + c.bend + h * c.rows.offset;
+  double gap = c.gap_at_start + c.bend + h * c.rows.offset;
   for_bodies(c.rows, [&](Index b, const Vector3& row) { gap += dot(row, parts.travel[b]) + dot(row, parts.shift[b]); });
   return -gap;
 }

@@ -27,6 +27,8 @@ struct StepContact {
   double gap = 0.0;                    // [m] at the start of the step; 0 where the bodies overlap
   double bend = 0.0;                   // [m] what turning and curved surfaces add to it in the step: h^2 / 2 times
                                        // `gap_curvature`
+  double gap_at_start = 0.0;           // [m] < 0: overlap
+  bool is_ahead = false;               // of fast bodies: where they will meet, not where they are closest now
   bool was_closed = false;             // in the last step
   bool has_stuck = false;              // in the last step: static friction may hold it
   bool is_listed = false;              // in an island: it may be touched in this step
@@ -59,6 +61,11 @@ struct IslandOutcome {
   double created = 0.0;     // [J], above round-off
 };
 
+struct PartSize {
+  double radius = 0.0;     // [m] of a circle that holds the part
+  double thickness = 0.0;  // [m] its smallest width
+};
+
 struct StepWorkspace::Parts {
   explicit Parts(const Scene& scene);
 
@@ -69,7 +76,10 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> mass;          // (m, m, I)
   std::vector<double> radius;         // of the circle about the origin of the body's frame that holds it
 
+  std::vector<std::vector<PartSize>> sizes;  // per body, per part
+
   // Of a step, per body.
+  std::vector<Pose> poses;
   std::vector<Frame> frames;
   std::vector<double> reach;             // [m]
   std::vector<Vector3> velocity;         // at the start; of kinematic bodies, their mean during the step
@@ -84,6 +94,8 @@ struct StepWorkspace::Parts {
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
+  std::vector<Contact> fast_pairs;  // of each one contact, for its ids: looked at along their way
+  std::vector<ContactPoint> points;
   std::vector<int> parent;             // union-find over bodies
   std::vector<int> island_of;          // root body -> island
   std::vector<int> island_begin;       // islands + 1
@@ -93,6 +105,21 @@ struct StepWorkspace::Parts {
   std::vector<int> local_body, island_body;
   std::vector<Vector3> way_velocity;  // of the LCP for the way
 };
+
+// The contacts in reach, with what is known of them before anything is solved, in the order of their ids.
+void prepare_contacts(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
+
+// Lists contacts that the motion found would overrun. False if there are none.
+bool list_overrun(double step_size, StepWorkspace::Parts& parts);
+
+// Adds the contacts of fast bodies that the motion found would run through. False if there are none.
+bool add_contacts_on_way(const Scene& scene, double step_size, StepWorkspace::Parts& parts);
+
+// Shortens the ways of fast bodies that would still run through each other, so that they end where they meet.
+void stop_at_impacts(const Scene& scene, double step_size, StepWorkspace::Parts& parts);
+
+// The motion of all islands, and the contacts that they reach. Islands whose contacts stay the same keep theirs.
+void step_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);
 
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
 
