@@ -1,0 +1,164 @@
+#include "laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tumble::physics {
+namespace {
+
+constexpr double k_round_off = 1e-13;         // [-] of what is summed, a few terms
+constexpr double k_ledger_round_off = 1e-12;  // [-] the same for energies, whose terms are products
+constexpr double k_residual = 1e-10;  // [-] that the solver accepts, of the largest speed at a contact of the island
+
+std::string describe(const ContactRecord& c) {
+  return fmt::format(
+      "contact {}/{} (gap {:.3g}, mode {}, impulse ({:.6g}, {:.6g}), u ({:.6g}, {:.6g}) -> ({:.6g}, {:.6g}))",
+      c.contact.body_a, c.contact.body_b, c.contact.gap, to_string(c.mode), c.normal_impulse, c.friction_impulse,
+      c.normal_velocity, c.tangential_velocity, c.normal_velocity_after, c.tangential_velocity_after);
+}
+
+// A sum that remembers how large its terms were.
+struct Sum {
+  double value = 0.0, size = 0.0;
+  void add(double term) {
+    value += term;
+    size += std::abs(term);
+  }
+};
+
+// [m/s] of what contact velocities are sums of: speeds before and after, and what impulses change them by.
+double size_of_speeds(const Scene& scene, const StepReport& report) {
+  double largest = 0.0;
+  for (const ContactRecord& c : report.contacts) {
+    if (c.mode == ContactMode::open) continue;
+    double change = 0.0;
+    for (const int i : {c.contact.body_a, c.contact.body_b}) {
+      const Body& body = scene.bodies[static_cast<std::size_t>(i)];
+      if (body.kind == BodyKind::dynamic) change += (c.normal_impulse + std::abs(c.friction_impulse)) / body.mass;
+    }
+    largest = std::max({largest, std::abs(c.normal_velocity), std::abs(c.tangential_velocity),
+                        std::abs(c.normal_velocity_after), std::abs(c.tangential_velocity_after), change});
+  }
+  return largest;
+}
+
+}  // namespace
+
+void check_momentum(const Scene& scene, double h, const State& before, const State& after, const StepReport& report,
+                    std::vector<std::string>& broken) {
+  std::vector<std::array<Sum, 3>> sums(scene.bodies.size());
+  std::vector<double> free_arm(scene.bodies.size(), 0.0);  // [N m s] torque that the place in the gap leaves open
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.kind != BodyKind::dynamic) continue;
+    const Vector3 wrench = mean_wrench(body, before.time, before.time + h);
+    const Vector3 force = {body.mass * scene.gravity.x + wrench[0], body.mass * scene.gravity.y + wrench[1], wrench[2]};
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double mass = j < 2 ? body.mass : body.moment_of_inertia;
+      const double damping = j < 2 ? body.linear_damping : body.angular_damping;
+      const double old = mass * before.bodies[i].velocity[j];
+      sums[i][j].add(-mass * after.bodies[i].velocity[j]);
+      sums[i][j].add((old + h * force[j]) / (1.0 + h * damping));
+    }
+  }
+  for (const ContactRecord& c : report.contacts) {
+    const Vector2 n = c.contact.normal;
+    const Vector2 impulse = c.normal_impulse * n + c.friction_impulse * turned_right(n);
+    for (const auto& [body, sign, point] : {std::tuple{c.contact.body_a, -1.0, c.contact.point_a},
+                                            std::tuple{c.contact.body_b, 1.0, c.contact.point_b}}) {
+      const auto i = static_cast<std::size_t>(body);
+      const Vector2 arm = point - before.bodies[i].pose.position;
+      sums[i][0].add(sign * impulse.x);
+      sums[i][1].add(sign * impulse.y);
+      sums[i][2].add(sign * arm.x * impulse.y);
+      sums[i][2].add(-sign * arm.y * impulse.x);
+      free_arm[i] += std::abs(c.contact.gap * c.friction_impulse);
+    }
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].kind != BodyKind::dynamic) continue;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double allowed = k_round_off * sums[i][j].size + (j == 2 ? free_arm[i] : 0.0);
+      if (std::abs(sums[i][j].value) <= allowed) continue;
+      broken.push_back(fmt::format("momentum: {} of body {}, {:.3g} is missing, of {:.3g}", "xyw"[j], i,
+                                   sums[i][j].value, sums[i][j].size));
+    }
+  }
+}
+
+void check_contacts(const Scene& scene, double h, const State& before, const State& after, const StepReport& report,
+                    std::vector<std::string>& broken) {
+  const double speed_tolerance = k_residual * size_of_speeds(scene, report);
+  // Of a point of a body, by the way that the body goes, to first order.
+  const auto mean_velocity = [&](int body, Vector2 point) {
+    const Pose &from = before.bodies[static_cast<std::size_t>(body)].pose,
+               &to = after.bodies[static_cast<std::size_t>(body)].pose;
+    return (1.0 / h) * (to.position - from.position + (to.angle - from.angle) * turned_left(point - from.position));
+  };
+  for (const ContactRecord& c : report.contacts) {
+    const double P_n = c.normal_impulse, P_t = c.friction_impulse;
+    const double u_n = c.normal_velocity_after, u_t = c.tangential_velocity_after;
+    const auto blame = [&](const char* what) { broken.push_back(fmt::format("{}: {}", what, describe(c))); };
+    if (P_n < 0.0) blame("a contact pulls");
+    const double friction = c.mode == ContactMode::stick ? c.law.static_friction : c.law.friction;
+    if (std::abs(P_t) > friction * P_n * (1.0 + k_residual)) blame("friction is outside its cone");
+    if (c.mode == ContactMode::open && (P_n != 0.0 || P_t != 0.0)) blame("an open contact pushes");
+    const double closing = std::max(c.contact.gap, 0.0) / h;
+    const double way = dot(c.contact.normal, mean_velocity(c.contact.body_b, c.contact.point_b) -
+                                                 mean_velocity(c.contact.body_a, c.contact.point_a));
+    const double rounding =
+        1e-15 *
+        (length(c.contact.point_a) + length(before.bodies[static_cast<std::size_t>(c.contact.body_a)].pose.position) +
+         length(before.bodies[static_cast<std::size_t>(c.contact.body_b)].pose.position)) /
+        h;
+    if (way < -closing - speed_tolerance - rounding) blame("a contact is overrun");
+    if (c.mode == ContactMode::open || P_n == 0.0) continue;
+    if (c.restitution == 0.0 && std::min(std::abs(u_n), std::abs(u_n + closing)) > speed_tolerance)
+      blame("a contact pushes that opens");
+    if (c.restitution > 0.0 && u_n < -speed_tolerance) blame("a contact that bounces does not open");
+    const bool slips = std::abs(u_t) > speed_tolerance;
+    if (slips && c.law.friction > 0.0 && P_t * u_t > 0.0) blame("friction does not oppose the slip");
+    if (slips && std::abs(P_t) < c.law.friction * P_n * (1.0 - k_residual)) blame("friction of a slip is not full");
+    if (slips && c.mode == ContactMode::stick) blame("a contact slips that is said to stick");
+    if (c.mode == ContactMode::slip_left && u_t > speed_tolerance) blame("a contact slips to the other side than said");
+    if (c.mode == ContactMode::slip_right && u_t < -speed_tolerance)
+      blame("a contact slips to the other side than said");
+  }
+}
+
+void check_energy(const Scene& scene, const State& before, const State& after, const StepReport& report,
+                  std::vector<std::string>& broken) {
+  const EnergyLedger old = energies(scene, before), now = energies(scene, after);
+  const EnergyLedger& energy = report.energy;
+  Sum sum;
+  for (const double term :
+       {old.kinetic, old.potential, -energy.kinetic, -energy.potential, energy.external_work, -energy.friction_loss,
+        -energy.impact_loss, -energy.damping_loss, energy.stabilisation_work}) {
+    sum.add(term);
+  }
+  if (std::abs(sum.value) > k_ledger_round_off * sum.size) {
+    broken.push_back(fmt::format("energy: {:.3g} J are missing, of {:.3g} J", sum.value, sum.size));
+  }
+  if (std::abs(now.kinetic - energy.kinetic) > k_ledger_round_off * now.kinetic)
+    broken.push_back("kinetic energy is not that of the state");
+  if (std::abs(now.potential - energy.potential) > k_ledger_round_off * sum.size)
+    broken.push_back("potential energy is not that of the state");
+  const double gain = energy.stabilisation_work - energy.friction_loss - energy.impact_loss;
+  if (gain > energy.created + k_ledger_round_off * sum.size) {
+    broken.push_back(
+        fmt::format("energy: contacts gain {:.3g} J and report {:.3g} J, of {:.3g} J", gain, energy.created, sum.size));
+  }
+}
+
+std::vector<std::string> broken_laws(const Scene& scene, double step_size, const State& before, const State& after,
+                                     const StepReport& report) {
+  std::vector<std::string> broken;
+  check_momentum(scene, step_size, before, after, report, broken);
+  check_contacts(scene, step_size, before, after, report, broken);
+  check_energy(scene, before, after, report, broken);
+  return broken;
+}
+
+}  // namespace tumble::physics
