@@ -12,6 +12,7 @@ namespace tumble::cli {
 
 // Exit codes. Bad input is whatever the library throws as std::invalid_argument.
 inline constexpr int k_done = 0;
+inline constexpr int k_warnings = 1;   // of check
 inline constexpr int k_bad_input = 2;  // also: a file that cannot be read or written
 inline constexpr int k_numerical_failure = 3;
 inline constexpr int k_interrupted = 130;  // by Ctrl-C: 128 + SIGINT, as shells have it
@@ -50,6 +51,12 @@ struct RunOptions {
   ReportOptions report;
 };
 int run_scene(const RunOptions& options);
+
+struct CheckOptions {
+  std::string input;  // "-" is standard input
+  ReportOptions report;
+};
+int check_scene(const CheckOptions& options);
 
 struct RenderOptions {
   std::string input;

@@ -137,11 +137,23 @@ double positive_number(const std::string& option, const std::string& text) {
   throw std::invalid_argument(fmt::format("{}: must be > 0, got {}", option, value));
 }
 
-void add_run(CLI::App& program, RunOptions& options, std::function<int()>& command) {
-  CLI::App& app = *program.add_subcommand("run", "Simulate a scene and print how it ends");
-  app.add_option("scene", options.input, "Scene file, see docs/scenes.md; '-' reads standard input")
+void add_scene_argument(CLI::App& app, std::string& input) {
+  app.add_option("scene", input, "Scene file, see docs/scenes.md; '-' reads standard input")
       ->type_name("FILE")
       ->required();
+}
+
+void add_check(CLI::App& program, CheckOptions& options, std::function<int()>& command) {
+  CLI::App& app = *program.add_subcommand("check", "Read a scene and say what is in it, and what is odd about it");
+  add_scene_argument(app, options.input);
+  add_report_options(app, options.report);
+  app.footer("Exit codes: 0 nothing odd, 1 warnings, 2 bad input.");
+  app.callback([&] { command = [&] { return check_scene(options); }; });
+}
+
+void add_run(CLI::App& program, RunOptions& options, std::function<int()>& command) {
+  CLI::App& app = *program.add_subcommand("run", "Simulate a scene and print how it ends");
+  add_scene_argument(app, options.input);
   SimulateSettings& settings = options.settings;
   add_parsed(app, "--step-size", settings.step_size, &positive_number, "Time step [s], > 0", "the scene's", "NUMBER");
   add_parsed(app, "--duration", settings.duration, &positive_number, "Simulated time [s], > 0", "the scene's",
@@ -218,7 +230,8 @@ int after_printing(int exit_code) {
 void require_command(const CLI::App& program, const std::string& word) {
   const auto commands = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
   if (commands.empty() && !word.starts_with('-')) {
-    throw std::invalid_argument(fmt::format("there is no command '{}'; there are drop, run, render and lcp", word));
+    throw std::invalid_argument(
+        fmt::format("there is no command '{}'; there are drop, run, check, render and lcp", word));
   }
 }
 
@@ -227,16 +240,18 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", std::string("tumble ") + TUMBLE_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Exit codes: 0 done, 2 bad input, 3 numerical failure or no solution, 130 ended by Ctrl-C.\n"
+      "Exit codes: 0 done, 1 warnings of check, 2 bad input, 3 numerical failure or no solution, 130 ended by Ctrl-C.\n"
       "`tumble COMMAND --help` tells more.");
 
   DropOptions drop_options;
   RunOptions run_options;
+  CheckOptions check_options;
   RenderOptions render_options;
   LcpOptions lcp_options;
   std::function<int()> command;
   add_drop(program, drop_options, command);
   add_run(program, run_options, command);
+  add_check(program, check_options, command);
   add_render(program, render_options, command);
   add_lcp(program, lcp_options, command);
 

@@ -38,5 +38,6 @@
 #include "tumble/step/state.hpp"
 #include "tumble/step/step_report.hpp"
 #include "tumble/step/time_step.hpp"
+#include "tumble/trajectory/scene_warnings.hpp"
 #include "tumble/trajectory/simulate.hpp"
 #include "tumble/trajectory/trajectory.hpp"

@@ -119,7 +119,7 @@ def test_speed_stretches_the_animation(tmp_path: Path) -> None:
 
 
 def test_an_unknown_command_is_named(tmp_path: Path) -> None:
-    assert "there is no command 'fall'; there are drop, run, render and lcp" in refuse("fall", cwd=tmp_path)
+    assert "there is no command 'fall'; there are drop, run, check, render and lcp" in refuse("fall", cwd=tmp_path)
     assert "there is no command 'a?b'" in refuse("a\nb", cwd=tmp_path)
 
 
@@ -166,7 +166,7 @@ def test_a_command_is_needed_and_help_is_everywhere(tmp_path: Path) -> None:
     refuse(cwd=tmp_path)
     refuse("fly", cwd=tmp_path)
     assert succeed("--version", cwd=tmp_path).startswith("tumble 0.")
-    for words in (["--help"], ["drop", "--help"], ["run", "--help"], ["render", "--help"], ["lcp", "--help"]):
+    for words in (["--help"], ["drop", "--help"], ["run", "--help"], ["check", "--help"], ["render", "--help"], ["lcp", "--help"]):
         assert "Usage" in succeed(*words, cwd=tmp_path)
 
 

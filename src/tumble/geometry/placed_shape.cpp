@@ -17,11 +17,6 @@ Box moved_box(Vector2 position, Vector2 low, Vector2 high, double margin) {
   return {{position.x + (low.x - m), position.y + (low.y - m)}, {position.x + (high.x + m), position.y + (high.y + m)}};
 }
 
-Box united(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
 }  // namespace
 
 Box bounding_box(const PlacedPolygon& shape, double margin) {

@@ -2,6 +2,7 @@
 // positions come first in every formula, so that no digits are lost far from the origin.
 #pragma once
 
+#include <algorithm>
 #include <variant>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct Box {
 
 inline bool overlap(const Box& a, const Box& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+// The least box around both.
+inline Box united(const Box& a, const Box& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 
 struct PlacedPolygon {

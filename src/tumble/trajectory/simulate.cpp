@@ -10,8 +10,6 @@
 namespace tumble {
 namespace {
 
-constexpr double k_max_steps = 1e9;
-
 void require_positive_or_default(double value, const char* field) {
   if (!(std::isfinite(value) && value >= 0.0)) {
     throw std::invalid_argument(fmt::format("{}: must be > 0 s, or 0 for the scene's own, got {}", field, value));

@@ -9,6 +9,8 @@
 
 namespace tumble {
 
+inline constexpr double k_max_steps = 1e9;  // of one simulation
+
 struct SimulateSettings {
   double step_size = 0.0;  // [s]; 0: the scene's
   double duration = 0.0;   // [s]; 0: the scene's
