@@ -10,6 +10,7 @@ using Index = std::size_t;
 
 constexpr double k_ridge = 1e-10;      // [-] of the diagonal of A
 constexpr double k_round_off = 1e-13;  // relative: contradictions below are not real
+constexpr double k_rounding_share = 1e-4;  // an accepted residual of 1e-10 is then some 50 times the rounding of terms
 constexpr int k_max_corrections = 12;  // each gains the digits that ridge over the smallest eigenvalue of A leaves
 
 double slip_direction(ContactMode mode) {
@@ -129,14 +130,19 @@ double BodyModes::residual() {
   find_velocities();
   find_contact_velocities();
   double largest = 0.0;
+  rounding_ = 0.0;
+  const auto add = [&](double violation, double size) {
+    if (!(size > 0.0)) return;
+    largest = std::max(largest, violation / (speed_ + k_rounding_share * size));
+    rounding_ = std::max(rounding_, violation / size);
+  };
   for (Index i = 0; i < modes.size(); ++i) {
     const double f_n = impulses[2 * i], f_t = impulses[2 * i + 1];
     const auto [u_n, u_t] = u_[i];
-    const auto [size_n, size_t] = size_[i];
-    if (size_n > 0.0) largest = std::max(largest, std::abs(std::min(response_[i].nn * f_n, u_n)) / size_n);
+    add(std::abs(std::min(response_[i].nn * f_n, u_n)), size_[i][0]);
     const double limit = system_->contacts[i].friction * std::max(f_n, 0.0);
     const double next = std::clamp(f_t - u_t / response_[i].tt, -limit, limit);
-    if (size_t > 0.0) largest = std::max(largest, std::abs(f_t - next) * response_[i].tt / size_t);
+    add(std::abs(f_t - next) * response_[i].tt, size_[i][1]);
   }
   return largest;
 }

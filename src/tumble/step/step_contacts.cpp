@@ -7,6 +7,7 @@
 
 #include "tumble/contact/contact_rows.hpp"
 #include "tumble/geometry/gap_rate.hpp"
+#include "tumble/geometry/passing_contact.hpp"
 #include "tumble/geometry/shape_contacts.hpp"
 #include "tumble/geometry/time_of_impact.hpp"
 #include "tumble/step/step_parts.hpp"
@@ -19,6 +20,10 @@ using Parts = StepWorkspace::Parts;
 
 constexpr double k_fast = 0.25;      // [-] of the radius of the smaller part: longer ways are long
 constexpr double k_touching = 1e-6;  // [-] of the same: parts that are nearer touch
+
+const Shape& shape_of(const Scene& scene, int body, int part) {
+  return scene.bodies[static_cast<Index>(body)].parts[static_cast<Index>(part)].shape;
+}
 
 bool is_dynamic(const Scene& scene, int body) {
   return scene.bodies[static_cast<Index>(body)].kind == BodyKind::dynamic;
@@ -156,10 +161,31 @@ void recall(const ContactMemory* memory, double h, StepContact& c) {
 std::optional<Impact> find_impact(const Scene& scene, double h, const Parts& parts, const Contact& pair,
                                   const std::vector<Vector3>& velocity) {
   const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
-  const Shape& shape_a = scene.bodies[a].parts[static_cast<Index>(pair.part_a)].shape;
-  const Shape& shape_b = scene.bodies[b].parts[static_cast<Index>(pair.part_b)].shape;
+  const Shape& shape_a = shape_of(scene, pair.body_a, pair.part_a);
+  const Shape& shape_b = shape_of(scene, pair.body_b, pair.part_b);
   const double distance = k_touching * size_of_pair(parts, pair).radius;
   return time_of_impact(shape_a, parts.poses[a], velocity[a], shape_b, parts.poses[b], velocity[b], h, distance);
+}
+
+// The contact in place of those of two polygons that would close in the step, if there is a better one: by their own
+// motion they pass each other along it.
+std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& parts, std::span<const Contact> pair) {
+  constexpr double step_height = 1e-3;  // [-] of the way along the side: lower steps are none
+  const Contact& nearest = *std::min_element(pair.begin(), pair.end(), [](auto& c, auto& d) { return c.gap < d.gap; });
+  const auto a = static_cast<Index>(nearest.body_a), b = static_cast<Index>(nearest.body_b);
+  if (!(nearest.gap > 0.0)) return std::nullopt;
+  const auto velocity_at = [&](Index body, Vector2 point) {
+    const Vector3& v = parts.middle_velocity[body];
+    return Vector2{v[0], v[1]} + v[2] * turned_left(point - parts.frames[body].position);
+  };
+  const Vector2 way = h * (velocity_at(b, nearest.point_b) - velocity_at(a, nearest.point_a));
+  const double gap_after = nearest.gap + dot(nearest.normal, way);
+  if (!(gap_after < 0.0)) return std::nullopt;
+  const auto better =
+      passing_contact(shape_of(scene, nearest.body_a, nearest.part_a), parts.frames[a],
+                      shape_of(scene, nearest.body_b, nearest.part_b), parts.frames[b], way, step_height * length(way));
+  if (!better || !(better->gap + dot(better->normal, way) > gap_after + step_height * length(way))) return std::nullopt;
+  return Contact{*better, nearest.body_a, nearest.body_b, nearest.part_a, nearest.part_b};
 }
 
 // The contacts of two parts at a time of the step, their bodies moving with these velocities.
@@ -170,12 +196,9 @@ void find_contacts_at(const Scene& scene, Parts& parts, const Contact& pair, con
     const Vector3& v = velocity[b];
     return frame_of({parts.poses[b].position + time * Vector2{v[0], v[1]}, parts.poses[b].angle + time * v[2]});
   };
-  const auto shape_of = [&](int body, int part) -> const Shape& {
-    return scene.bodies[static_cast<Index>(body)].parts[static_cast<Index>(part)].shape;
-  };
   parts.points.clear();
-  find_contacts(shape_of(pair.body_a, pair.part_a), frame_at(pair.body_a), shape_of(pair.body_b, pair.part_b),
-                frame_at(pair.body_b), reach, parts.points);
+  find_contacts(shape_of(scene, pair.body_a, pair.part_a), frame_at(pair.body_a),
+                shape_of(scene, pair.body_b, pair.part_b), frame_at(pair.body_b), reach, parts.points);
 }
 
 // Appends the contacts that two parts have where they first meet when their bodies move with these velocities. The gap
@@ -237,17 +260,18 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
   for (Index begin = 0, end = 0; begin < found.size(); begin = end) {
     while (end < found.size() && is_of_pair(found[end], found[begin])) ++end;
     const std::span<const Contact> pair = std::span(found).subspan(begin, end - begin);
-    if (is_fast(parts, pair)) {
+    const auto passing = find_passing(scene, h, parts, pair);
+    if (!passing && is_fast(parts, pair)) {
       parts.fast_pairs.push_back(pair.front());
       append_contacts_ahead(scene, h, parts, pair.front(), parts.middle_velocity, parts.contacts);
       continue;
     }
-    for (const Contact& contact : pair) {
+    for (const Contact& contact : passing ? std::span(&*passing, 1) : pair) {
       StepContact& c = parts.contacts.emplace_back();
       c.contact = contact;
       set_geometry(scene, parts, c, parts.frames[static_cast<Index>(contact.body_a)].position,
                    parts.frames[static_cast<Index>(contact.body_b)].position);
-      if (&contact != &pair.front()) share_friction_line(parts.contacts.end()[-2], c);
+      if (!passing && &contact != &pair.front()) share_friction_line(parts.contacts.end()[-2], c);
     }
   }
   Index next = 0;
