@@ -101,10 +101,10 @@ class BodyModes {
   double ridge_ = 0.0;    // [-] of the diagonal of A
   bool is_near_ = false;  // in `run_near`
   double rounding_ = 0.0;
-  double speed_ = 0.0;    // largest at a contact before the impulses [m/s]
+  double speed_ = 0.0;  // largest at a contact before the impulses [m/s]
   std::vector<Vector3> mass_;
-  std::vector<Block> response_;  // A of each contact
-  std::vector<Vector3> v_, step_;
+  std::vector<Block> response_;            // A of each contact
+  std::vector<Vector3> v_, terms_, step_;  // terms_: the sizes of what v_ is a sum of
   std::vector<Pair> u_, size_;
   BlockLu::Pairs pairs_;
   std::vector<int> pair_of_;  // contact -> pair of bodies, or -1

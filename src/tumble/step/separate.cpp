@@ -20,7 +20,7 @@ void for_bodies(const BodyContact& rows, const F& f) {
 }
 
 double overlap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
-  double gap = c.gap_at_start + c.bend + h * c.rows.offset;
+  double gap = c.gap_at_start + c.way_bend + h * c.rows.offset;
   for_bodies(c.rows, [&](Index b, const Vector3& row) { gap += dot(row, parts.travel[b]) + dot(row, parts.shift[b]); });
   return -gap;
 }
@@ -29,6 +29,19 @@ double overlap_after(const StepWorkspace::Parts& parts, const StepContact& c, do
 
 void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, double lost) {
   const auto at = [&](int i) -> StepContact& { return parts.contacts[static_cast<Index>(i)]; };
+  // The bend of the way that was found, with slips that impacts may have changed.
+  const auto motion_of = [&](int body) {
+    const auto b = static_cast<Index>(body);
+    Motion motion{parts.frames[b].position, parts.velocity[b]};
+    if (parts.inverse_mass[b][0] > 0.0) {
+      for (Index j = 0; j < 3; ++j) motion.velocity[j] = parts.travel[b][j] / h;
+    }
+    return motion;
+  };
+  for (const int i : contacts) {
+    StepContact& c = at(i);
+    if (!c.is_ahead) c.way_bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
+  }
   const bool has_overlap = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
     double size = 0.0;
     for_bodies(at(i).rows, [&](Index b, const Vector3&) { size = std::max(size, parts.radius[b]); });

@@ -95,13 +95,6 @@ double position_round_off(const Parts& parts, const Contact& contact) {
   return round_off * std::max(size(contact.body_a), size(contact.body_b));
 }
 
-// Two round surfaces, the more so two corners, turn their normal as they pass: past half their distance from centre to
-// centre the first two derivatives of the gap no longer tell what it will be.
-bool is_curvature_known(const StepContact& c, double h) {
-  const double distance = c.contact.gap + c.contact.radius_a + c.contact.radius_b;
-  return std::isinf(distance) || h * 0.5 * std::abs(c.speed[1] + c.free_speed[1]) < 0.5 * distance;
-}
-
 // The smaller sizes of the two parts.
 PartSize size_of_pair(const Parts& parts, const Contact& pair) {
   const PartSize& a = parts.sizes[static_cast<Index>(pair.body_a)][static_cast<Index>(pair.part_a)];
@@ -138,8 +131,7 @@ void set_motion(const Parts& parts, double h, StepContact& c) {
   c.free_speed = contact_velocity(c.rows, parts.free_velocity);
   if (c.is_ahead) return;
   c.gap_at_start = c.contact.gap;
-  if (is_curvature_known(c, h))
-    c.bend = 0.5 * h * h * gap_curvature(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b));
+  c.bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
 }
 
 // What the contact did in the last step. `memory` is the first of its place or behind.
@@ -167,24 +159,25 @@ std::optional<Impact> find_impact(const Scene& scene, double h, const Parts& par
   return time_of_impact(shape_a, parts.poses[a], velocity[a], shape_b, parts.poses[b], velocity[b], h, distance);
 }
 
-// The contact in place of those of two polygons that would close in the step, if there is a better one: by their own
-// motion they pass each other along it.
+// The contact in place of those of two polygons that would close in the step, where by their own motion, forces apart,
+// they pass each other.
 std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& parts, std::span<const Contact> pair) {
-  constexpr double step_height = 1e-3;  // [-] of the way along the side: lower steps are none
+  constexpr double early = 1.25;        // [-] of a step: forces may speed them up
+  constexpr double step_height = 1e-3;  // [-] of the way, and of the size: lower steps are none
+  constexpr double tilt = 0.01;         // [-] of the way: they are on it along the side
   const Contact& nearest = *std::min_element(pair.begin(), pair.end(), [](auto& c, auto& d) { return c.gap < d.gap; });
   const auto a = static_cast<Index>(nearest.body_a), b = static_cast<Index>(nearest.body_b);
   if (!(nearest.gap > 0.0)) return std::nullopt;
   const auto velocity_at = [&](Index body, Vector2 point) {
-    const Vector3& v = parts.middle_velocity[body];
+    const Vector3& v = parts.velocity[body];
     return Vector2{v[0], v[1]} + v[2] * turned_left(point - parts.frames[body].position);
   };
-  const Vector2 way = h * (velocity_at(b, nearest.point_b) - velocity_at(a, nearest.point_a));
-  const double gap_after = nearest.gap + dot(nearest.normal, way);
-  if (!(gap_after < 0.0)) return std::nullopt;
-  const auto better =
-      passing_contact(shape_of(scene, nearest.body_a, nearest.part_a), parts.frames[a],
-                      shape_of(scene, nearest.body_b, nearest.part_b), parts.frames[b], way, step_height * length(way));
-  if (!better || !(better->gap + dot(better->normal, way) > gap_after + step_height * length(way))) return std::nullopt;
+  const Vector2 way = early * h * (velocity_at(b, nearest.point_b) - velocity_at(a, nearest.point_a));
+  if (!(nearest.gap + dot(nearest.normal, way) < 0.0)) return std::nullopt;
+  const double tolerance = step_height * std::min(length(way), size_of_pair(parts, nearest).radius);
+  const auto better = passing_contact(shape_of(scene, nearest.body_a, nearest.part_a), parts.frames[a],
+                                      shape_of(scene, nearest.body_b, nearest.part_b), parts.frames[b], way, tolerance);
+  if (!better || better->gap + dot(better->normal, way) < -tilt * length(way)) return std::nullopt;
   return Contact{*better, nearest.body_a, nearest.body_b, nearest.part_a, nearest.part_b};
 }
 
@@ -252,6 +245,20 @@ bool has_listed(const Parts& parts, const Contact& pair) {
 }
 
 }  // namespace
+
+// Two round surfaces, the more so two corners, turn their normal as they pass: past half their distance from centre to
+// centre the first two derivatives of the gap no longer tell what it will be.
+double bend_of(const Contact& contact, const Motion& a, const Motion& b, double h) {
+  const double distance = contact.gap + contact.radius_a + contact.radius_b;
+  if (std::isfinite(distance)) {
+    const auto velocity_at = [](const Motion& body, Vector2 point) {
+      return Vector2{body.velocity[0], body.velocity[1]} + body.velocity[2] * turned_left(point - body.position);
+    };
+    const double slip = cross(contact.normal, velocity_at(b, contact.point_b) - velocity_at(a, contact.point_a));
+    if (!(h * std::abs(slip) < 0.5 * distance)) return 0.0;
+  }
+  return 0.5 * h * h * gap_curvature(contact, a, b);
+}
 
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   const std::vector<Contact>& found = parts.finder.find(parts.frames, parts.reach);

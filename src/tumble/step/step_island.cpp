@@ -158,9 +158,11 @@ struct Island {
     }
   }
 
+  // Turning alone, by which closed contacts start with a speed of their bend, is no approach.
   void set_bounce(StepContact& c, double end_speed) const {
     c.end_speed = end_speed;
-    c.bounce = bounce_speed({c.gap, c.speed[0], end_speed + 2.0 * c.bend / h, h}, c.law->restitution);
+    const double turning = c.was_closed ? c.bend / h : 0.0;
+    c.bounce = bounce_speed({c.gap, c.speed[0] - turning, end_speed - turning, h}, c.law->restitution);
   }
 
   // The gap [m] after the step, up to third order, without impacts.

@@ -8,6 +8,7 @@
 #include "tumble/contact/contact_rows.hpp"
 #include "tumble/contact/island_solver.hpp"
 #include "tumble/geometry/detect_contacts.hpp"
+#include "tumble/geometry/gap_rate.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/step/step_report.hpp"
 #include "tumble/step/time_step.hpp"
@@ -50,6 +51,7 @@ struct StepContact {
   std::array<double, 2> speed_after{};
   bool sticks = false;       // closed, without slip
   double restitution = 0.0;  // that was at work
+  double way_bend = 0.0;     // [m] of the way found
   double push = 0.0;         // [kg m] of `separate`
 };
 
@@ -108,6 +110,10 @@ struct StepWorkspace::Parts {
 
 // The contacts in reach, with what is known of them before anything is solved, in the order of their ids.
 void prepare_contacts(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
+
+// [m] What turning and curved surfaces add to the gap in the step, to second order, where the two bodies move with
+// these velocities; 0 where that says little.
+double bend_of(const Contact& contact, const Motion& a, const Motion& b, double step_size);
 
 // Lists contacts that the motion found would overrun. False if there are none.
 bool list_overrun(double step_size, StepWorkspace::Parts& parts);

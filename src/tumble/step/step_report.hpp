@@ -32,6 +32,8 @@ struct ContactRecord {
   Vector2 tangent;           // the normal turned right; of two contacts on one side, that of the nearer one for both
   Vector2 place_a, place_b;  // [m] one place, unless the bodies were apart before the step
   ContactLaw law;
+  double bend = 0.0;             // [m] what turning and curved surfaces add to the gap in the step: it is closed where
+                                 // u_n' = -(gap + bend) / step size
   double normal_velocity = 0.0;  // before [m/s]
   double tangential_velocity = 0.0;
   double normal_velocity_after = 0.0;  // [m/s]

@@ -145,8 +145,8 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
       c.sticks = false;
       c.impulse = c.total_impulse = c.work = {};
     }
-    report.contacts.push_back({c.contact, c.tangent, c.places.on_a, c.places.on_b, *c.law, c.speed[0], c.speed[1],
-                               c.speed_after[0], c.speed_after[1], c.total_impulse[0], c.total_impulse[1],
+    report.contacts.push_back({c.contact, c.tangent, c.places.on_a, c.places.on_b, *c.law, c.bend, c.speed[0],
+                               c.speed[1], c.speed_after[0], c.speed_after[1], c.total_impulse[0], c.total_impulse[1],
                                c.restitution, c.sticks ? ContactMode::stick : c.mode});
     energy.impact_loss -= c.work[0];
     energy.friction_loss -= c.work[1];
