@@ -411,6 +411,15 @@ def test_a_refused_body_leaves_the_scene_as_it_was() -> None:
         other.add_material("default")
 
 
+def test_a_scene_is_looked_through() -> None:
+    scene = drop()
+    assert scene.check() == []
+    scene.add_body(BOX, mass=1, name="buried", position=(5, 0))
+    scene.add_body(BOX, mass=1, name="bullet", position=(9, 5), velocity=(1000, 0))
+    lines = scene.check()
+    assert len(lines) == 2 and "buried" in lines[0] and "0.1 m" in lines[0] and "bullet" in lines[1]
+
+
 def test_saving_replaces_whole_files_or_nothing(tmp_path: Path) -> None:
     target = tmp_path / "a.toml"
     target.write_text("mine")

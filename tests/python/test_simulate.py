@@ -121,7 +121,7 @@ def test_shapes_types_and_views() -> None:
     assert box.x.base is not None and np.shares_memory(box.x, trajectory.pose)
     assert box.pose.tolist() == trajectory[1].pose.tolist() == trajectory[scene["square"]].pose.tolist()
     assert box.body == scene["square"] and box.time is trajectory.time
-    assert trajectory.pose is trajectory.pose
+    assert trajectory.pose is trajectory.pose and np.shares_memory(trajectory.pose[0, 0, 2:], trajectory._core.pose())
     for array in (trajectory.time, trajectory.pose, trajectory.velocity, trajectory.energy, trajectory.contacts, box.x):
         assert not array.flags.writeable
     with pytest.raises(ValueError, match="read-only"):

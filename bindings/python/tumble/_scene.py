@@ -312,6 +312,19 @@ class Scene:
         """The law between two materials: that of their pair, or else the geometric mean of each coefficient."""
         return ContactLaw(*self._core.law(_name_of(a), _name_of(b)))
 
+    def check(self) -> list[str]:
+        """What is allowed and yet probably not meant, a line each: bodies that overlap at the start, that nothing will
+        stop from falling for ever, that move far in one step; more steps than a simulation takes.
+
+        >>> import tumble
+        >>> scene = tumble.Scene()
+        >>> box = scene.add_body(tumble.square(0.2), mass=1, name="box")
+        >>> for line in scene.check():
+        ...     print(line)
+        nothing is below box: it falls for ever
+        """
+        return self._core.check()
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Scene):
             return NotImplemented

@@ -62,7 +62,7 @@ Simulation::Simulation(const Scene& scene, const SimulateSettings& settings) : s
 
 void Simulation::sample() {
   trajectory_.time.push_back(state_.time);
-  trajectory_.bodies.push_back(state_.bodies);
+  trajectory_.states.insert(trajectory_.states.end(), state_.bodies.begin(), state_.bodies.end());
   trajectory_.energy.push_back(since_sample_);
   since_sample_ = {};
 }
