@@ -562,6 +562,12 @@ class Scene:
         return Body(index=index, **fields)
 
 
+def require_scene(scene: Any) -> None:
+    """Raise TypeError for anything but a scene."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: must be a tumble.Scene, got {type(scene).__name__}; a file is read by tumble.Scene.load")
+
+
 def _name_of(material: Any) -> Any:
     return material.name if isinstance(material, Material) else material
 
