@@ -100,6 +100,8 @@ class Simulation:
     def set_pose(self, body: BodyName, position: ArrayLike | None = None, angle: Angle | None = None) -> None:
         """Put a dynamic or kinematic body somewhere else; what is left out stays as it is.
 
+        A kinematic body goes on from there with the velocity it has, in place of the motion that the scene gives it.
+
         Parameters
         ----------
         body : str, int or Body
