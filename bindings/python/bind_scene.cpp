@@ -288,9 +288,11 @@ py::tuple law_tuple(const ContactLaw& law) {
   return py::make_tuple(law.friction, law.static_friction, law.restitution);
 }
 
-SceneHandle parse(const std::string& text, const std::string& name) {
+SceneHandle parse(const py::bytes& text, const py::handle& name_object) {
+  const auto view = static_cast<std::string_view>(text);
+  const std::string name = as_text(name_object, "name");
   const py::gil_scoped_release without_gil;
-  return handle_of(parse_scene(text, name));
+  return handle_of(parse_scene(view, name));
 }
 
 py::list check(const SceneHandle& handle) {

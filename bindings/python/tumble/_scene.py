@@ -212,7 +212,7 @@ class Scene:
         """
         if not isinstance(text, (str, bytes)):
             raise TypeError(f"text: must be text, got {type(text).__name__}; a file is read by Scene.load")
-        return cls._of(_core.Scene.parse(text, name))
+        return cls._of(_core.Scene.parse(text.encode() if isinstance(text, str) else text, name))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
@@ -226,7 +226,8 @@ class Scene:
             As `parse`.
         """
         with open(path, "rb") as file:
-            return cls.parse(file.read(_core.MAX_SCENE_BYTES + 1), os.fspath(path))
+            text = file.read(_core.MAX_SCENE_BYTES + 1)
+        return cls.parse(text, os.fsencode(path).decode(errors="replace"))
 
     def to_toml(self) -> str:
         """The text of the scene, which `parse` reads back to an equal scene, bit for bit."""
@@ -560,6 +561,12 @@ class Scene:
         fields["motion"] = tuple(Knot(*knot) for knot in fields["motion"])
         fields["wrenches"] = tuple(Wrench(*wrench) for wrench in fields["wrenches"])
         return Body(index=index, **fields)
+
+
+def require_scene(scene: Any) -> None:
+    """Raise TypeError for anything but a scene."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: must be a tumble.Scene, got {type(scene).__name__}; a file is read by tumble.Scene.load")
 
 
 def _name_of(material: Any) -> Any:

@@ -45,4 +45,7 @@ struct Trajectory {
 // The energies of a state [J]; works and losses are 0.
 EnergyLedger energies(const Scene& scene, const State& state);
 
+// Takes a step into account: its works and losses are added, its energies are those after it.
+void add_step(EnergyLedger& sum, const EnergyLedger& step);
+
 }  // namespace tumble
