@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -121,7 +122,7 @@ def test_shapes_types_and_views() -> None:
     assert box.x.base is not None and np.shares_memory(box.x, trajectory.pose)
     assert box.pose.tolist() == trajectory[1].pose.tolist() == trajectory[scene["square"]].pose.tolist()
     assert box.body == scene["square"] and box.time is trajectory.time
-    assert trajectory.pose is trajectory.pose
+    assert trajectory.pose is trajectory.pose and np.shares_memory(trajectory.pose[0, 0, 2:], trajectory._core.pose())
     for array in (trajectory.time, trajectory.pose, trajectory.velocity, trajectory.energy, trajectory.contacts, box.x):
         assert not array.flags.writeable
     with pytest.raises(ValueError, match="read-only"):
@@ -264,6 +265,15 @@ def test_other_threads_run_meanwhile() -> None:
     assert end - start < 0.1 or during > 5
 
 
+def test_runs_side_by_side_are_those_one_after_the_other() -> None:
+    scene = load("dominoes")
+    steps = [1e-3, 2e-3, 3e-3, 4e-3] * 3
+    with ThreadPoolExecutor(4) as pool:
+        runs = list(pool.map(lambda h: simulate(scene, step_size=h, duration=0.3), steps))
+    for h, run in zip(steps, runs):
+        assert np.array_equal(run.pose, simulate(scene, step_size=h, duration=0.3).pose)
+
+
 def test_a_simulation_is_advanced_by_one_thread_at_a_time() -> None:
     simulation = Simulation(load("pile"))
     errors: list[str] = []
@@ -402,7 +412,7 @@ def test_a_velocity_set_between_steps_meets_the_contacts() -> None:
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
-        (lambda: simulate("drop.toml"), TypeError, "scene: must be a tumble.Scene, got str"),
+        (lambda: simulate("drop.toml"), TypeError, "scene: must be a tumble.Scene, got str; a file is read by tumble.Scene.load"),
         (lambda: simulate(load("drop"), step_size=0), ValueError, "step_size: must be in [1e-12, 1000000000000] s, got 0"),
         (lambda: simulate(load("drop"), step_size=-1), ValueError, "step_size: must be in [1e-12, 1000000000000] s, got -1"),
         (lambda: simulate(load("drop"), step_size=NAN), ValueError, "step_size: must be in [1e-12, 1000000000000] s, got nan"),

@@ -80,7 +80,9 @@ class BodyTrajectory:
 
 
 class Trajectory:
-    """What `simulate` returns: T samples of B bodies, the first at time 0. All arrays are read-only.
+    """What `simulate` returns: T samples of B bodies, the first at time 0.
+
+    All arrays are read-only; all but `contacts` are views of the memory of the run.
 
     ``trajectory["box"]`` is the course of one body, by its name, index or the `Body` itself; see `BodyTrajectory`.
 
