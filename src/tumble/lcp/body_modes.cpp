@@ -257,7 +257,7 @@ double BodyModes::correct() {
     add(c.body_a, c.normal_a, c.tangent_a);
     add(c.body_b, c.normal_b, c.tangent_b);
   }
-  if (largest <= k_round_off / 100.0) return largest;
+  if (largest <= k_round_off / 1000.0) return largest;
   equations_.solve(step_);
   for (Index i = 0; i < modes.size(); ++i) {
     if (modes[i] == ContactMode::open) continue;
@@ -310,7 +310,7 @@ bool BodyModes::iterate(int max_rounds) {
       find_contact_velocities();
       const double error = correct();
       if (!std::isfinite(error)) return false;
-      if (error <= k_round_off / 100.0 || (count >= 2 && error > 0.5 * before)) break;
+      if (error <= k_round_off / 1000.0 || (count >= 2 && error > 0.5 * before)) break;
       before = error;
     }
     find_velocities();
