@@ -16,12 +16,17 @@ class CMakeBuild(build_ext):
         target = Path(self.get_ext_fullpath(extension.name)).resolve()
         build = Path(self.build_temp).resolve()
         build.mkdir(parents=True, exist_ok=True)
-        off = [f"-DTUMBLE_BUILD_{part}=OFF" for part in ("OUTPUT", "CLI", "TESTS")]
-        python = f"-DPython_EXECUTABLE={sys.executable}"
-        subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", python, "-DTUMBLE_BUILD_PYTHON=ON", *off], check=True)
-        subprocess.run(["cmake", "--build", build, "--target", "tumble_python"], check=True)
+        options = [f"-DPython_EXECUTABLE={sys.executable}", "-DTUMBLE_BUILD_PYTHON=ON", "-DTUMBLE_BUILD_CLI=OFF"]
+        configure = ["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *options]
+        targets = ["tumble_python", "tumble_python_output"]
+        if subprocess.run([*configure, "-DTUMBLE_BUILD_OUTPUT=ON"]).returncode != 0:
+            print("tumble: built without cairo, giflib or zlib, so that Trajectory.save will not work", file=sys.stderr)
+            subprocess.run([*configure, "-DTUMBLE_BUILD_OUTPUT=OFF"], check=True)
+            targets.pop()
+        subprocess.run(["cmake", "--build", build, "--target", *targets], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)
-        self.copy_file(str(next((build / "python/tumble").glob("_core*.so"))), str(target))
+        for module in (build / "python/tumble").glob("*.so"):
+            self.copy_file(str(module), str(target.parent / module.name))
 
 
 version = re.search(r"project\(tumble VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "json.hpp"
 #include "report.hpp"
@@ -19,8 +20,12 @@ double square_speed(const Body& body, const Vector3& v) {
   return v[0] * v[0] + v[1] * v[1] + body.moment_of_inertia / body.mass * v[2] * v[2];
 }
 
+std::span<const BodyState> last_states(const Trajectory& trajectory) {
+  return trajectory.bodies(trajectory.time.size() - 1);
+}
+
 // The fastest dynamic body; -1 if there is none.
-int find_fastest(const Scene& scene, const std::vector<BodyState>& states) {
+int find_fastest(const Scene& scene, std::span<const BodyState> states) {
   int fastest = -1;
   double most = -1.0;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -34,7 +39,7 @@ int find_fastest(const Scene& scene, const std::vector<BodyState>& states) {
   return fastest;
 }
 
-bool is_at_rest(const Trajectory& trajectory, const std::vector<BodyState>& states) {
+bool is_at_rest(const Trajectory& trajectory, std::span<const BodyState> states) {
   const Scene& scene = trajectory.scene;
   const int fastest = find_fastest(scene, states);
   if (fastest < 0) return true;
@@ -83,7 +88,7 @@ std::string energy_lines(const Trajectory& trajectory) {
 }
 
 std::string end_line(const Trajectory& trajectory, const RunNotes& notes, const std::vector<std::string>& labels) {
-  const std::vector<BodyState>& states = trajectory.bodies.back();
+  const std::span<const BodyState> states = last_states(trajectory);
   const int fastest = find_fastest(trajectory.scene, states);
   if (fastest < 0) return "end      nothing can move\n";
   if (is_at_rest(trajectory, states)) {
@@ -144,7 +149,7 @@ std::string run_json(const Trajectory& trajectory, const RunNotes& notes, const 
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (scene.bodies[i].kind == BodyKind::fixed) continue;
     Json body = {{"name", labels[i]}};
-    body.update(json_of(trajectory.bodies.back()[i]));
+    body.update(json_of(last_states(trajectory)[i]));
     bodies.push_back(std::move(body));
   }
   Json overlap = nullptr;
@@ -154,7 +159,7 @@ std::string run_json(const Trajectory& trajectory, const RunNotes& notes, const 
         {"bodies", {labels[static_cast<std::size_t>(notes.body_a)], labels[static_cast<std::size_t>(notes.body_b)]}},
         {"time", notes.time}};
   }
-  const bool rests = is_at_rest(trajectory, trajectory.bodies.back());
+  const bool rests = is_at_rest(trajectory, last_states(trajectory));
   const Json report = {
       {"title", scene.title},
       {"step_size", trajectory.step_size},

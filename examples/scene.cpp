@@ -35,7 +35,7 @@ int main() {
   std::printf("time [s]  way of rubber [m]  way of ice [m]\n");
   for (std::size_t k = 0; k < run.time.size(); ++k) {
     const auto way = [&](std::size_t body) {
-      return run.bodies[k][body].pose.position.x - run.bodies[0][body].pose.position.x;
+      return run.bodies(k)[body].pose.position.x - run.bodies(0)[body].pose.position.x;
     };
     std::printf("%8.3f  %17.6f  %14.6f\n", run.time[k], way(1), way(2));
   }

@@ -14,6 +14,7 @@
 #include "tumble/scene/check.hpp"
 #include "tumble/scene/scene_toml.hpp"
 #include "tumble/scene/suggestion.hpp"
+#include "tumble/trajectory/scene_warnings.hpp"
 
 namespace tumble::python {
 namespace {
@@ -287,9 +288,20 @@ py::tuple law_tuple(const ContactLaw& law) {
   return py::make_tuple(law.friction, law.static_friction, law.restitution);
 }
 
-SceneHandle parse(const std::string& text, const std::string& name) {
+SceneHandle parse(const py::bytes& text, const py::handle& name_object) {
+  const auto view = static_cast<std::string_view>(text);
+  const std::string name = as_text(name_object, "name");
   const py::gil_scoped_release without_gil;
-  return handle_of(parse_scene(text, name));
+  return handle_of(parse_scene(view, name));
+}
+
+py::list check(const SceneHandle& handle) {
+  const std::vector<std::string> labels = body_labels(handle.scene);
+  py::list lines;
+  for (const SceneWarning& warning : scene_warnings(handle.scene)) {
+    lines.append(to_text(warning, handle.scene, labels));
+  }
+  return lines;
 }
 
 void set_title(SceneHandle& handle, const py::handle& object) {
@@ -331,6 +343,7 @@ void bind_scene(py::module_& module) {
       .def(py::init([] { return SceneHandle{}; }))
       .def_static("parse", &parse, "text"_a, "name"_a)
       .def("to_toml", [](const SceneHandle& handle) { return to_toml(handle.scene); })
+      .def("check", &check)
       .def("copy", [](const SceneHandle& handle) { return handle; })
       .def("add_material", &add_material, "name"_a, "friction"_a, "static_friction"_a, "restitution"_a)
       .def("add_pair", &add_pair, "a"_a, "b"_a, "friction"_a, "static_friction"_a, "restitution"_a)

@@ -161,15 +161,7 @@ class Stepper {
     State& state = snapshot_.state;
     time_step(now_, step_size_, settings_, state, workspace_, &report_);
     state.time = static_cast<double>(++snapshot_.step) * step_size_;
-    const EnergyLedger& energy = report_.energy;
-    sum.kinetic = energy.kinetic;
-    sum.potential = energy.potential;
-    sum.external_work += energy.external_work;
-    sum.friction_loss += energy.friction_loss;
-    sum.impact_loss += energy.impact_loss;
-    sum.damping_loss += energy.damping_loss;
-    sum.stabilisation_work += energy.stabilisation_work;
-    sum.created += energy.created;
+    add_step(sum, report_.energy);
   }
 
   const SceneHandle scene_;  // as it was given

@@ -124,20 +124,16 @@ ContactRow as_row(const ContactRecord& record, std::int64_t step, double time) {
   return row;
 }
 
-// (T, B, 3), the values of each body given by `values_of`.
-template <class ValuesOf>
-py::array per_body(const Trajectory& trajectory, ValuesOf values_of) {
+// (T, B, 3), a view of the three numbers that begin `offset` bytes into each state.
+py::array states_view(const py::object& self, std::size_t offset) {
+  static_assert(sizeof(BodyState) == 6 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
+  const auto& trajectory = self.cast<const Trajectory&>();
   const auto samples = static_cast<py::ssize_t>(trajectory.time.size());
   const auto bodies = static_cast<py::ssize_t>(trajectory.scene.bodies.size());
-  py::array_t<double> array({samples, bodies, py::ssize_t{3}});
-  double* out = array.mutable_data();
-  for (const std::vector<BodyState>& sample : trajectory.bodies) {
-    for (const BodyState& body : sample) {
-      const Vector3 values = values_of(body);
-      out = std::copy(values.begin(), values.end(), out);
-    }
-  }
-  return read_only(std::move(array));
+  constexpr auto stride = static_cast<py::ssize_t>(sizeof(BodyState));
+  const auto* first = reinterpret_cast<const char*>(trajectory.states.data()) + offset;
+  return read_only(py::array(py::dtype::of<double>(), {samples, bodies, py::ssize_t{3}},
+                             {bodies * stride, stride, py::ssize_t{sizeof(double)}}, first, self));
 }
 
 using TrajectoryClass = py::class_<Trajectory, std::shared_ptr<Trajectory>>;
@@ -150,13 +146,8 @@ void bind_trajectory_class(py::module_& module) {
              const std::vector<double>& time = self.cast<const Trajectory&>().time;
              return read_only(py::array_t<double>(static_cast<py::ssize_t>(time.size()), time.data(), self));
            })
-      .def("pose",
-           [](const Trajectory& t) {
-             return per_body(t, [](const BodyState& b) {
-               return Vector3{b.pose.position.x, b.pose.position.y, b.pose.angle};
-             });
-           })
-      .def("velocity", [](const Trajectory& t) { return per_body(t, [](const BodyState& b) { return b.velocity; }); })
+      .def("pose", [](const py::object& self) { return states_view(self, offsetof(BodyState, pose)); })
+      .def("velocity", [](const py::object& self) { return states_view(self, offsetof(BodyState, velocity)); })
       .def("energy", [](const py::object& self) { return to_numpy(self.cast<const Trajectory&>().energy, self); })
       .def("contacts", [](const Trajectory& t) { return to_numpy(t.contacts, t.step_size); })
       .def_readonly("step_size", &Trajectory::step_size)

@@ -93,6 +93,8 @@ def test_pip_install_in_a_virtual_environment(tmp_path: Path) -> None:
         "import tumble, tumble.course, tumble.grade\n"
         "from tumble.drop import simulate\n"
         f"q, v = simulate(*{COURSE_START!r})\n"
+        "ball = tumble.Scene(duration=0.01)\nball.add_body(tumble.disc(0.1), mass=1)\n"
+        "tumble.simulate(ball).save('ball.csv')\n"
         "print(tumble.__file__)\nprint(*map(repr, map(float, q[:, -1])))\n"
     )
     where, numbers = run(python, "-c", code, env=clean, cwd=tmp_path).strip().splitlines()

@@ -1,40 +1,18 @@
 // The laws of mechanics and contact in every step of the scenes in scenes/, and of scenes at random.
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "closed_form.hpp"
 #include "laws.hpp"
+#include "named_scenes.hpp"
 #include "random.hpp"
 #include "scene_builder.hpp"
 #include <gtest/gtest.h>
 
-#include "tumble/scene/scene_toml.hpp"
-
 namespace tumble::physics {
 namespace {
-
-std::filesystem::path folder() { return std::filesystem::path(TUMBLE_SOURCE) / "scenes"; }
-
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder())) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-Scene named_scene(const std::string& name) {
-  std::ifstream file(folder() / (name + ".toml"), std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse_scene(text.str(), name + ".toml");
-}
 
 // The first broken law of each kind, with the time.
 std::map<std::string, std::string> first_faults(const Scene& scene, double step_size, double duration, double* depth) {

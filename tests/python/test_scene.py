@@ -1,6 +1,7 @@
 """tumble.Scene: what the builders make is what scene files say, and bad input is refused in one line."""
 
 import copy
+import os
 import pickle
 import random
 from pathlib import Path
@@ -333,6 +334,9 @@ NAN = float("nan")
         (lambda: Scene(title="a\nb"), ValueError, "title: must be UTF-8 without control characters"),
         (lambda: Scene(title="\udc80"), ValueError, "title: must be valid UTF-8, got '\\udc80'"),
         (lambda: Scene.parse(3), TypeError, "text: must be text, got int"),
+        (lambda: Scene.parse("tumble = 1", name=3), TypeError, "name: must be text, got 3"),
+        (lambda: Scene.parse("# \udc80"), ValueError, "surrogates not allowed"),
+        (lambda: Scene.parse(b"# \xff"), ValueError, "scene:1:"),
         (lambda: Scene.parse("tumble = 2"), ValueError, "scene:1:10: tumble: must be"),
         (lambda: Scene.parse("tumble = 1\nbodys = []", "my.toml"), ValueError, "my.toml:2:1: 'bodys': unknown key; did you mean 'bodies'?"),
         (lambda: Scene.load(ROOT / "scenes/none.toml"), FileNotFoundError, "none.toml"),
@@ -411,6 +415,15 @@ def test_a_refused_body_leaves_the_scene_as_it_was() -> None:
         other.add_material("default")
 
 
+def test_a_scene_is_looked_through() -> None:
+    scene = drop()
+    assert scene.check() == []
+    scene.add_body(BOX, mass=1, name="buried", position=(5, 0))
+    scene.add_body(BOX, mass=1, name="bullet", position=(9, 5), velocity=(1000, 0))
+    lines = scene.check()
+    assert len(lines) == 2 and "buried" in lines[0] and "0.1 m" in lines[0] and "bullet" in lines[1]
+
+
 def test_saving_replaces_whole_files_or_nothing(tmp_path: Path) -> None:
     target = tmp_path / "a.toml"
     target.write_text("mine")
@@ -421,6 +434,17 @@ def test_saving_replaces_whole_files_or_nothing(tmp_path: Path) -> None:
     with pytest.raises(OSError):
         scene.save(tmp_path)
     assert [file.name for file in tmp_path.iterdir()] == ["a.toml"]
+
+
+def test_any_name_of_a_file_will_do(tmp_path: Path) -> None:
+    for name in ("büchse.toml", b"\xff.toml"):
+        path = os.path.join(os.fsencode(tmp_path), os.fsencode(name))
+        drop().save(os.fsdecode(path))
+        assert Scene.load(path) == Scene.load(os.fsdecode(path)) == drop()
+        with open(path, "w") as file:
+            file.write("x")
+        with pytest.raises(ValueError, match=r"\.toml:1:"):
+            Scene.load(path)
 
 
 def test_a_file_that_never_ends_is_refused() -> None:

@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -121,7 +122,7 @@ def test_shapes_types_and_views() -> None:
     assert box.x.base is not None and np.shares_memory(box.x, trajectory.pose)
     assert box.pose.tolist() == trajectory[1].pose.tolist() == trajectory[scene["square"]].pose.tolist()
     assert box.body == scene["square"] and box.time is trajectory.time
-    assert trajectory.pose is trajectory.pose
+    assert trajectory.pose is trajectory.pose and np.shares_memory(trajectory.pose[0, 0, 2:], trajectory._core.pose())
     for array in (trajectory.time, trajectory.pose, trajectory.velocity, trajectory.energy, trajectory.contacts, box.x):
         assert not array.flags.writeable
     with pytest.raises(ValueError, match="read-only"):
@@ -264,6 +265,15 @@ def test_other_threads_run_meanwhile() -> None:
     assert end - start < 0.1 or during > 5
 
 
+def test_runs_side_by_side_are_those_one_after_the_other() -> None:
+    scene = load("dominoes")
+    steps = [1e-3, 2e-3, 3e-3, 4e-3] * 3
+    with ThreadPoolExecutor(4) as pool:
+        runs = list(pool.map(lambda h: simulate(scene, step_size=h, duration=0.3), steps))
+    for h, run in zip(steps, runs):
+        assert np.array_equal(run.pose, simulate(scene, step_size=h, duration=0.3).pose)
+
+
 def test_a_simulation_is_advanced_by_one_thread_at_a_time() -> None:
     simulation = Simulation(load("pile"))
     errors: list[str] = []
@@ -402,7 +412,7 @@ def test_a_velocity_set_between_steps_meets_the_contacts() -> None:
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
-        (lambda: simulate("drop.toml"), TypeError, "scene: must be a tumble.Scene, got str"),
+        (lambda: simulate("drop.toml"), TypeError, "scene: must be a tumble.Scene, got str; a file is read by tumble.Scene.load"),
         (lambda: simulate(load("drop"), step_size=0), ValueError, "step_size: must be in [1e-12, 1000000000000] s, got 0"),
         (lambda: simulate(load("drop"), step_size=-1), ValueError, "step_size: must be in [1e-12, 1000000000000] s, got -1"),
         (lambda: simulate(load("drop"), step_size=NAN), ValueError, "step_size: must be in [1e-12, 1000000000000] s, got nan"),
@@ -453,3 +463,47 @@ def test_interrupts_leave_no_handler_behind() -> None:
     before = signal.getsignal(signal.SIGINT)
     simulate(load("drop"), duration=0.1)
     assert signal.getsignal(signal.SIGINT) is before
+
+
+# Files. What is in them: tests/output and docs/formats.md.
+
+
+def test_a_trajectory_is_saved_as_tables(tmp_path: Path) -> None:
+    scene = load("drop")
+    trajectory = simulate(scene, duration=0.6, sample_every=10)
+    assert trajectory.save(tmp_path / "run.csv") == tmp_path / "run.csv"
+    trajectory.save(str(tmp_path / "run.csv"))  # an existing file is replaced
+    table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True, skip_header=sum(
+        line.startswith("#") for line in (tmp_path / "run.csv").read_text().splitlines()), deletechars="")  # fmt: skip
+    columns = table.dtype.names
+    assert np.array_equal(table[columns[0]], trajectory.time)
+    square = np.array([table[name] for name in columns if name.startswith("square.")]).T
+    assert np.array_equal(square, np.hstack([trajectory["square"].pose, trajectory["square"].velocity]))
+    trajectory.save(tmp_path / "run.contacts.csv")
+    rows = [line for line in (tmp_path / "run.contacts.csv").read_text().splitlines() if not line.startswith("#")]
+    assert len(rows) == 1 + len(trajectory.contacts) > 1
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "error", "message"),
+    [
+        ("run.xyz", {}, ValueError, "run.xyz: the name must end in ."),
+        ("run", {}, ValueError, "run: the name must end in ."),
+        ("run.csv", {"format": "doc"}, ValueError, "format: must be "),
+        ("none/run.csv", {}, ValueError, "none"),
+        ("run.csv", {"width": 3}, ValueError, "width: must be 0 (chosen for you) or in [160, 4096] px, got 3"),
+        ("run.csv", {"height": 10**30}, ValueError, "height: must be 0 (chosen for you) or in [160, 4096] px, got 1000000"),
+        ("run.csv", {"width": 3.5}, TypeError, "width: must be a whole number, got 3.5"),
+        ("run.csv", {"speed": 0}, ValueError, "speed: must be"),
+        ("run.csv", {"speed": NAN}, ValueError, "speed: must be"),
+        ("run.csv", {"speed": "fast"}, TypeError, "speed: must be a number, got 'fast'"),
+        ("run.contacts.csv", {}, ValueError, "contacts: were not kept; simulate with contacts=True"),
+        (3, {}, TypeError, ""),
+    ],
+)
+def test_what_cannot_be_saved_is_said_in_one_line(tmp_path: Path, name: str, settings: dict, error: type[Exception], message: str) -> None:
+    trajectory = simulate(load("drop"), duration=0.01, contacts=False)
+    with pytest.raises(error) as caught:
+        trajectory.save(tmp_path / name if isinstance(name, str) else name, **settings)
+    assert message in str(caught.value) and "\n" not in str(caught.value)
+    assert list(tmp_path.iterdir()) == []

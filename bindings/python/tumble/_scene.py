@@ -212,7 +212,7 @@ class Scene:
         """
         if not isinstance(text, (str, bytes)):
             raise TypeError(f"text: must be text, got {type(text).__name__}; a file is read by Scene.load")
-        return cls._of(_core.Scene.parse(text, name))
+        return cls._of(_core.Scene.parse(text.encode() if isinstance(text, str) else text, name))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
@@ -226,7 +226,8 @@ class Scene:
             As `parse`.
         """
         with open(path, "rb") as file:
-            return cls.parse(file.read(_core.MAX_SCENE_BYTES + 1), os.fspath(path))
+            text = file.read(_core.MAX_SCENE_BYTES + 1)
+        return cls.parse(text, os.fsencode(path).decode(errors="replace"))
 
     def to_toml(self) -> str:
         """The text of the scene, which `parse` reads back to an equal scene, bit for bit."""
@@ -311,6 +312,19 @@ class Scene:
     def contact_law(self, a: str | Material, b: str | Material) -> ContactLaw:
         """The law between two materials: that of their pair, or else the geometric mean of each coefficient."""
         return ContactLaw(*self._core.law(_name_of(a), _name_of(b)))
+
+    def check(self) -> list[str]:
+        """What is allowed and yet probably not meant, a line each: bodies that overlap at the start, that nothing will
+        stop from falling for ever, that move far in one step; more steps than a simulation takes.
+
+        >>> import tumble
+        >>> scene = tumble.Scene()
+        >>> box = scene.add_body(tumble.square(0.2), mass=1, name="box")
+        >>> for line in scene.check():
+        ...     print(line)
+        nothing is below box: it falls for ever
+        """
+        return self._core.check()
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Scene):
@@ -547,6 +561,12 @@ class Scene:
         fields["motion"] = tuple(Knot(*knot) for knot in fields["motion"])
         fields["wrenches"] = tuple(Wrench(*wrench) for wrench in fields["wrenches"])
         return Body(index=index, **fields)
+
+
+def require_scene(scene: Any) -> None:
+    """Raise TypeError for anything but a scene."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: must be a tumble.Scene, got {type(scene).__name__}; a file is read by tumble.Scene.load")
 
 
 def _name_of(material: Any) -> Any:

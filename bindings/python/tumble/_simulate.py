@@ -7,7 +7,7 @@ import time
 import warnings
 
 from tumble import _core
-from tumble._scene import Scene
+from tumble._scene import Scene, require_scene
 from tumble._trajectory import Trajectory
 
 _SECONDS_BETWEEN_LOOKS = 0.05  # for Ctrl-C and the progress line
@@ -40,7 +40,7 @@ def simulate(
 ) -> Trajectory:
     """Simulate a scene.
 
-    Other Python threads run meanwhile.
+    Other Python threads run meanwhile, so that ``concurrent.futures.ThreadPoolExecutor`` runs many scenes side by side.
 
     Parameters
     ----------
@@ -87,8 +87,7 @@ def simulate(
     >>> print(f"{x:.6f} {y:.6f}")  # 3 t, 2 - g t^2 / 2
     0.900000 1.558550
     """
-    if not isinstance(scene, Scene):
-        raise TypeError(f"scene: must be a tumble.Scene, got {type(scene).__name__}")
+    require_scene(scene)
     run = _core.Run(scene._core, step_size, duration, sample_every, solver, num_sweeps, contacts)
     line = _ProgressLine(run) if progress and sys.stderr.isatty() else None
     try:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tumble import _core
 from tumble._core import Snapshot
-from tumble._scene import Scene
+from tumble._scene import Scene, require_scene
 from tumble._shapes import Angle
 from tumble._trajectory import BodyName, index_of
 
@@ -76,8 +76,7 @@ class Simulation:
     def __init__(
         self, scene: Scene, *, step_size: float | None = None, solver: str = "exact", num_sweeps: int = 10
     ) -> None:
-        if not isinstance(scene, Scene):
-            raise TypeError(f"scene: must be a tumble.Scene, got {type(scene).__name__}")
+        require_scene(scene)
         self._core = _core.Stepper(scene._core, step_size, solver, num_sweeps)
         self.scene = scene.copy()
 
@@ -100,6 +99,8 @@ class Simulation:
 
     def set_pose(self, body: BodyName, position: ArrayLike | None = None, angle: Angle | None = None) -> None:
         """Put a dynamic or kinematic body somewhere else; what is left out stays as it is.
+
+        A kinematic body goes on from there with the velocity it has, in place of the motion that the scene gives it.
 
         Parameters
         ----------

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import operator
+import os
 from functools import cached_property
+from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
@@ -12,6 +15,13 @@ from tumble import _core
 from tumble._scene import Body, Scene
 
 BodyName = Union[str, int, Body]
+
+
+def _as_pixels(value: Any, field: str) -> int:
+    try:
+        return max(-1, min(operator.index(value), 1_000_000))  # what C++ refuses fits into its int
+    except TypeError:
+        raise TypeError(f"{field}: must be a whole number, got {value!r:.40}") from None
 
 
 def index_of(scene: Scene, body: BodyName) -> int:
@@ -70,7 +80,9 @@ class BodyTrajectory:
 
 
 class Trajectory:
-    """What `simulate` returns: T samples of B bodies, the first at time 0. All arrays are read-only.
+    """What `simulate` returns: T samples of B bodies, the first at time 0.
+
+    All arrays are read-only; all but `contacts` are views of the memory of the run.
 
     ``trajectory["box"]`` is the course of one body, by its name, index or the `Body` itself; see `BodyTrajectory`.
 
@@ -182,6 +194,52 @@ class Trajectory:
             chosen &= (rows["body_a"] == index) | (rows["body_b"] == index)
         found: NDArray[Any] = rows[chosen]
         return found
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        format: str = "",
+        width: int = 0,
+        height: int = 0,
+        speed: float = 1.0,
+    ) -> Path:
+        """Write a file; an existing one is replaced, once the new one is complete. docs/formats.md says what is in it.
+
+        Parameters
+        ----------
+        path : path
+            Its ending says what: ``.csv`` bodies and energies over time, ``.contacts.csv`` contacts over time.
+        format : str, optional
+            "csv" or "contacts.csv", whatever the ending.
+        width, height : int
+            Of a picture [px], 160 to 4096; chosen for you if left out.
+        speed : float
+            Seconds of the motion per second of a film, > 0.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        ValueError
+            For an unknown ending or a size out of range.
+        OSError
+            If the file cannot be written.
+        ImportError
+            If the package was built without the libraries for files and pictures.
+        """
+        try:
+            from tumble import _output
+        except ImportError as error:
+            text = "save: this package was built without cairo, giflib or zlib; install these, then build it again"
+            raise ImportError(text) from error
+        size = _as_pixels(width, "width"), _as_pixels(height, "height")
+        if not isinstance(speed, (int, float, np.number)):
+            raise TypeError(f"speed: must be a number, got {speed!r:.40}")
+        _output.save(self._core, os.fsencode(path), str(format), *size, float(speed), self._has_contacts)
+        return Path(os.fsdecode(path))
 
     def __repr__(self) -> str:
         end = "complete" if self.is_complete else f"ended early, last step {self.status}"

@@ -62,7 +62,7 @@ std::string samples_csv_rows(const Trajectory& trajectory, std::size_t first, st
     for (const EnergyField& field : k_energy_fields) append(text, trajectory.energy[k].*field.member);
     for (std::size_t i = 0; i < trajectory.scene.bodies.size(); ++i) {
       if (trajectory.scene.bodies[i].kind == BodyKind::fixed) continue;
-      const BodyState& body = trajectory.bodies[k][i];
+      const BodyState& body = trajectory.bodies(k)[i];
       append(text, body.pose.position);
       append(text, body.pose.angle);
       for (const double value : body.velocity) append(text, value);

@@ -33,6 +33,17 @@ EnergyLedger energies(const Scene& scene, const State& state) {
   return energy;
 }
 
+void add_step(EnergyLedger& sum, const EnergyLedger& step) {
+  sum.kinetic = step.kinetic;
+  sum.potential = step.potential;
+  sum.external_work += step.external_work;
+  sum.friction_loss += step.friction_loss;
+  sum.impact_loss += step.impact_loss;
+  sum.damping_loss += step.damping_loss;
+  sum.stabilisation_work += step.stabilisation_work;
+  sum.created += step.created;
+}
+
 void validate(const SimulateSettings& settings) {
   require_positive_or_default(settings.step_size, "step_size");
   require_positive_or_default(settings.duration, "duration");
@@ -62,7 +73,7 @@ Simulation::Simulation(const Scene& scene, const SimulateSettings& settings) : s
 
 void Simulation::sample() {
   trajectory_.time.push_back(state_.time);
-  trajectory_.bodies.push_back(state_.bodies);
+  trajectory_.states.insert(trajectory_.states.end(), state_.bodies.begin(), state_.bodies.end());
   trajectory_.energy.push_back(since_sample_);
   since_sample_ = {};
 }
@@ -76,14 +87,7 @@ void Simulation::advance() {
   trajectory_.num_steps = step_;
   trajectory_.residual = std::max(trajectory_.residual, report_.residual);
   const EnergyLedger& energy = report_.energy;
-  since_sample_.kinetic = energy.kinetic;
-  since_sample_.potential = energy.potential;
-  since_sample_.external_work += energy.external_work;
-  since_sample_.friction_loss += energy.friction_loss;
-  since_sample_.impact_loss += energy.impact_loss;
-  since_sample_.damping_loss += energy.damping_loss;
-  since_sample_.stabilisation_work += energy.stabilisation_work;
-  since_sample_.created += energy.created;
+  add_step(since_sample_, energy);
   if (energy.created > 0.0) {
     if (trajectory_.num_creating_steps == 0) trajectory_.first_creation = state_.time;
     ++trajectory_.num_creating_steps;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,11 @@ struct StepContacts {
 // Samples of a run, the first at time 0. Row k of an array over samples belongs to time[k].
 struct Trajectory {
   Scene scene;
-  double step_size = 0.0;                      // [s]
-  std::vector<double> time;                    // [s], T samples
-  std::vector<std::vector<BodyState>> bodies;  // T x bodies of the scene
-  std::vector<EnergyLedger> energy;            // T; works and losses since the sample before
-  std::vector<StepContacts> contacts;          // of every step in which contacts were at work, if asked for
+  double step_size = 0.0;              // [s]
+  std::vector<double> time;            // [s], T samples
+  std::vector<BodyState> states;       // T x bodies of the scene, one sample after the other
+  std::vector<EnergyLedger> energy;    // T; works and losses since the sample before
+  std::vector<StepContacts> contacts;  // of every step in which contacts were at work, if asked for
 
   std::int64_t num_steps = 0;
   LcpStatus status = LcpStatus::solved;  // of the last step: where it is not `solved` the run ended with it
@@ -33,9 +34,18 @@ struct Trajectory {
   double created_energy = 0.0;           // how much in all [J],
   double first_creation = -1.0;          // and when first [s]; -1: never
   bool is_complete = false;              // it reached the end asked for
+
+  // The bodies at sample k, in the order of the scene.
+  std::span<const BodyState> bodies(std::size_t k) const {
+    const std::size_t count = scene.bodies.size();
+    return {states.data() + k * count, count};
+  }
 };
 
 // The energies of a state [J]; works and losses are 0.
 EnergyLedger energies(const Scene& scene, const State& state);
+
+// Takes a step into account: its works and losses are added, its energies are those after it.
+void add_step(EnergyLedger& sum, const EnergyLedger& step);
 
 }  // namespace tumble
