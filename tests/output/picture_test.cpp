@@ -58,8 +58,8 @@ TEST(View, FitsTheWholePathAndKeepsTheAspect) {
   for (const Trajectory& trajectory : odd_runs()) {
     const View view = fit_view(sight_of(trajectory), area, {10.0, 10.0, 20.0});
     ASSERT_TRUE(std::isfinite(view.scale) && view.scale > 0.0);
-    for (const std::vector<BodyState>& states : trajectory.bodies) {
-      const Point point = view.to_pixel(states[1].pose.position);
+    for (std::size_t k = 0; k < trajectory.time.size(); ++k) {
+      const Point point = view.to_pixel(trajectory.bodies(k)[1].pose.position);
       EXPECT_GE(point.x, area.left);
       EXPECT_LE(point.x, area.right());
       EXPECT_GE(point.y, area.top);

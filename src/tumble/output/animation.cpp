@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -238,7 +239,7 @@ void Animation::Parts::draw_arrows(int frame) {
 
 void Animation::Parts::draw_motion(int frame, std::size_t sample) {
   canvas.clip(view.area);
-  const std::vector<BodyState>& states = trajectory.bodies[sample];
+  const std::span<const BodyState> states = trajectory.bodies(sample);
   for (const std::size_t body : bodies->moving()) {
     bodies->draw(canvas, body, states[body].pose, solid_style(bodies->colours(body)));
   }

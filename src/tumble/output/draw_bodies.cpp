@@ -183,7 +183,7 @@ void BodyDrawing::draw(Canvas& canvas, std::size_t body, const Pose& pose, const
   }
 }
 
-void BodyDrawing::draw_conveyors(Canvas& canvas, const std::vector<BodyState>& states, double time) const {
+void BodyDrawing::draw_conveyors(Canvas& canvas, std::span<const BodyState> states, double time) const {
   canvas.clip(view_.area);
   for (std::size_t i = 0; i < outlines_.size(); ++i) {
     const Frame turn = frame_of({{}, states[i].pose.angle});
@@ -212,7 +212,7 @@ void draw_path(Canvas& canvas, const View& view, const Trajectory& trajectory, s
   constexpr double k_closest = 0.3;  // [px]
   std::vector<Point> points;
   for (std::size_t k = first; k <= last; ++k) {
-    const Point point = view.to_pixel(trajectory.bodies[k][body].pose.position);
+    const Point point = view.to_pixel(trajectory.bodies(k)[body].pose.position);
     if (points.empty() || std::abs(point.x - points.back().x) > k_closest ||
         std::abs(point.y - points.back().y) > k_closest) {
       points.push_back(point);

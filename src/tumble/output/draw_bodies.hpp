@@ -1,6 +1,7 @@
 // The bodies of a scene in a picture: fixed, moved and moving.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tumble/output/canvas.hpp"
@@ -41,7 +42,7 @@ class BodyDrawing {
   void draw(Canvas& canvas, std::size_t body, const Pose& pose, const BodyStyle& style) const;
 
   // The surfaces of conveyors at a time [s]: chevrons that run with them.
-  void draw_conveyors(Canvas& canvas, const std::vector<BodyState>& states, double time) const;
+  void draw_conveyors(Canvas& canvas, std::span<const BodyState> states, double time) const;
 
   const BodyColours& colours(std::size_t body) const { return colours_[body]; }
 

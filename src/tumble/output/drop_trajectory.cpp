@@ -61,7 +61,8 @@ Trajectory trajectory_of(const drop::Record& record) {
   for (int k = 0; k < columns; ++k) {
     const Vector3 q = record.trajectory.q_at(k);
     trajectory.time.push_back(k * record.parameters.dt);
-    trajectory.bodies.push_back({{}, {{{q[0], q[1]}, q[2]}, record.trajectory.v_at(k)}});
+    trajectory.states.push_back({});
+    trajectory.states.push_back({{{q[0], q[1]}, q[2]}, record.trajectory.v_at(k)});
     EnergyLedger energy;
     energy.kinetic = kinetic_at(record, k);
     energy.potential = potential_at(record, k);

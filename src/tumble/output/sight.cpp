@@ -92,7 +92,7 @@ struct Motion {
 Motion motion_of(const Trajectory& trajectory) {
   Motion motion;
   const Scene& scene = trajectory.scene;
-  const std::size_t samples = trajectory.bodies.size();
+  const std::size_t samples = trajectory.time.size();
   const std::size_t stride = 1 + samples * scene.bodies.size() / k_most_poses;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
@@ -104,7 +104,7 @@ Motion motion_of(const Trajectory& trajectory) {
     require_drawable(diameter, k_smallest_body, "sizes");
     if (body.kind == BodyKind::dynamic) motion.smallest_body = std::min(motion.smallest_body, diameter);
     for (std::size_t k = 0; k < samples; ++k) {
-      const Pose& pose = trajectory.bodies[k][i].pose;
+      const Pose& pose = trajectory.bodies(k)[i].pose;
       require_drawable(pose.position.x, -k_largest, "positions");
       require_drawable(pose.position.y, -k_largest, "positions");
       const Box box = moved(body_box.at(pose.angle), pose.position);

@@ -122,7 +122,7 @@ BodyStyle pose_style(const Colour& colour) {
 }
 
 const Pose& pose_at(const Show& show, std::size_t body, std::size_t sample) {
-  return show.trajectory.bodies[sample][body].pose;
+  return show.trajectory.bodies(sample)[body].pose;
 }
 
 // Poses that fall on one another are drawn once: many thin layers would make one thick one.
@@ -233,7 +233,7 @@ void draw_plot(Canvas& canvas, const Show& show) {
   draw_poses(canvas, show);
   draw_impact_poses(canvas, show);
   draw_first_and_last(canvas, show);
-  show.bodies.draw_conveyors(canvas, show.trajectory.bodies.back(), 0.0);
+  show.bodies.draw_conveyors(canvas, show.trajectory.bodies(show.last()), 0.0);
   draw_paths(canvas, show);
   draw_impacts(canvas, show);
   draw_numbers(canvas, show);
@@ -372,7 +372,7 @@ void draw_impact_table(Canvas& canvas, Panel& panel, const Show& show) {
 // How it starts, or, of several bodies, nothing.
 std::string start_text(const Show& show) {
   if (show.bodies.moving().size() != 1) return "";
-  const auto& [pose, v] = show.trajectory.bodies[0][show.bodies.moving()[0]];
+  const auto& [pose, v] = show.trajectory.bodies(0)[show.bodies.moving()[0]];
   return fmt::format(
       "start: x = {:.4g} m, y = {:.4g} m, θ = {:.4g} rad,  vx = {:.4g} m/s, vy = {:.4g} m/s, ω = {:.4g} rad/s",
       pose.position.x, pose.position.y, pose.angle, v[0], v[1], v[2]);
