@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <span>
+#include <sstream>
+#include <string>
 
 #include "../random_contact.hpp"
 #include "problems.hpp"
@@ -14,6 +17,8 @@
 #include "tumble/lcp/lemke_lu.hpp"
 #include "tumble/lcp/one_contact_lanes.hpp"
 #include "tumble/lcp/robust.hpp"
+#include "tumble/scene/scene_toml.hpp"
+#include "tumble/trajectory/simulate.hpp"
 
 namespace {
 
@@ -128,6 +133,33 @@ std::uint64_t hash_of_contacts() {
   return common;
 }
 
+// 1000 steps of scenes with all shapes and kinds of contact: states, impulses and energies.
+std::uint64_t hash_of_scenes() {
+  Hash hash;
+  for (const char* name :
+       {"drop", "billiard", "bouncing_balls", "capsule_and_rounded", "compound", "conveyor", "dominoes", "ellipse_drop",
+        "funnel", "galton_board", "pusher", "pyramid", "stack_heavy_top", "terrain", "wedge"}) {
+    std::ifstream file(std::string(TUMBLE_SOURCE "/scenes/") + name + ".toml", std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    const tumble::Scene scene = tumble::parse_scene(text.str(), name);
+    tumble::Simulation simulation(scene, {.duration = 1000.0 * scene.step_size, .keeps_contacts = false});
+    while (!simulation.is_done()) {
+      simulation.advance();
+      for (const tumble::BodyState& body : simulation.state().bodies) {
+        hash.add(std::array{body.pose.position.x, body.pose.position.y, body.pose.angle});
+        hash.add(body.velocity);
+      }
+      for (const tumble::ContactRecord& contact : simulation.report().contacts) {
+        hash.add(std::array{contact.contact.gap, contact.normal_impulse, contact.friction_impulse});
+      }
+      const tumble::EnergyLedger& energy = simulation.report().energy;
+      hash.add(std::array{energy.kinetic, energy.potential, energy.friction_loss, energy.impact_loss});
+    }
+  }
+  return hash.value();
+}
+
 }  // namespace
 
 int main() {
@@ -135,4 +167,5 @@ int main() {
   std::printf("lcps %016llx\n", static_cast<unsigned long long>(hash_of_lcps()));
   std::printf("robust %016llx\n", static_cast<unsigned long long>(hash_of_robust()));
   std::printf("contacts %016llx\n", static_cast<unsigned long long>(hash_of_contacts()));
+  std::printf("scenes %016llx\n", static_cast<unsigned long long>(hash_of_scenes()));
 }
