@@ -317,24 +317,35 @@ struct Island {
     }
   }
 
-  // Impacts without friction make no energy. Where several in one step would, by what their ways and their speeds of
-  // approach do not know of each other, they bounce a little less.
+  // Impacts without friction make no energy, and elastic ones lose none. Where several in one step would, by what their
+  // ways and their speeds of approach do not know of each other, they all bounce a little less, or more.
   void bounce() {
     find_approach();
     find_way();
-    double share = 1.0;
+    double square = 1.0, last_square = 1.0, last_made = 0.0;  // of the share; the energy made is linear in it
     for (int attempt = 0;; ++attempt) {
-      find_velocities(share);
-      const Created made = created();
-      double bounced = 0.0, rubbed = 0.0;
+      find_velocities(std::sqrt(square));
+      double bounced = 0.0;
+      bool rubs = false, is_elastic = true;
       for (const int i : contacts) {
         const StepContact& c = at(i);
-        if (c.restitution > 0.0) bounced += 0.5 * c.total_impulse[0] * c.bounce;
-        rubbed = std::max(rubbed, std::abs(c.work[1]));
+        if (c.restitution > 0.0)
+          bounced += 0.5 * c.total_impulse[0] * std::abs(contact_velocity(c.rows, parts.next_velocity)[0]);
+        rubs = rubs || c.total_impulse[1] != 0.0;
+        is_elastic = is_elastic && (c.total_impulse[0] == 0.0 || c.restitution == 1.0);
       }
-      if (attempt == k_max_attempts || made.energy <= k_energy_round_off * made.size) return;
-      if (rubbed > k_energy_round_off * made.size || !(bounced > made.energy)) return;
-      share *= std::sqrt(1.0 - made.energy / bounced);
+      const Created made = created();
+      const double wrong = is_elastic ? std::abs(made.energy) : made.energy;
+      if (rubs || wrong <= k_energy_round_off * made.size || !(bounced > 0.0)) return;
+      const bool is_last = attempt >= k_max_attempts;
+      if (is_last && (made.energy <= 0.0 || attempt >= 2 * k_max_attempts)) return;
+      double slope = 0.5 * bounced / square;
+      if (attempt > 0 && (made.energy - last_made) * (square - last_square) > 0.0)
+        slope = (made.energy - last_made) / (square - last_square);
+      last_square = square;
+      last_made = made.energy;
+      square -= (is_last ? 2.0 : 1.0) * made.energy / slope;  // in the end, too little rather than too much
+      if (!(square > 0.0)) square = 0.0;
     }
   }
 
