@@ -269,7 +269,7 @@ std::vector<ClosedForm> slides() {
       not_met(
           {"smooth disc slides off a fixed disc: angle at which it leaves", "cos a = 2/3 cos a_0", 1, 2e-2, off_a_disc},
           k_flicker),
-      not_met({"smooth disc slides off a fixed disc: force at 40 deg", "m g (3 cos a - 2 cos a_0)", 1, 1e-2,
+      not_met({"smooth disc slides off a fixed disc: force at 40 deg", "m g (3 cos a - 2 cos a_0)", 1, 2e-2,
                force_on_a_disc},
               k_flicker),
   };
