@@ -72,21 +72,19 @@ int picture_side(const std::string& option, const std::string& text) {
                                           output::k_largest_picture, side));
 }
 
-// `kinds` are the endings.
-void add_file_options(CLI::App& app, OutputOptions& output, const std::string& kinds) {
-  app.add_option("-o,--output", output.files,
-                 fmt::format("File to write; its ending picks the kind: {}. May be given several times", kinds))
+// `data` are the endings of files that hold numbers.
+void add_output_options(CLI::App& app, OutputOptions& output, const std::string& data) {
+  app.add_option(
+         "-o,--output", output.files,
+         fmt::format("File to write; its ending picks the kind: {}, .png .svg (many poses in one picture), .gif "
+                     ".mp4 (animation in real time). May be given several times",
+                     data))
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--format", output.pictures.format, "Kind of the files, whatever their endings, named like these")
       ->type_name("NAME");
   app.add_flag("--force", output.pictures.overwrite, "Replace files that exist");
-}
-
-void add_output_options(CLI::App& app, OutputOptions& output) {
-  add_file_options(app, output,
-                   ".csv .npz .h5 (data), .png .svg (many poses in one picture), .gif .mp4 (animation in real time)");
   add_parsed(app, "--width", output.pictures.width, &picture_side, "Width of pictures [px], 160 to 4096", "by kind",
              "COUNT");
   add_parsed(app, "--height", output.pictures.height, &picture_side, "Height of pictures [px], 160 to 4096", "by kind",
@@ -125,7 +123,7 @@ void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& com
          "Number of steps; the trajectory has one column more")
       ->default_str("149")
       ->type_name("COUNT");
-  add_output_options(app, options.output);
+  add_output_options(app, options.output, ".csv .npz .h5 (data)");
   add_report_options(app, options.report);
   app.callback([&] { command = [&] { return run_drop(options); }; });
 }
@@ -163,7 +161,7 @@ void add_run(CLI::App& program, RunOptions& options, std::function<int()>& comma
   add_parsed(app, "--solver", settings.step.solver, &contact_solver,
              "Of contacts: exact, or fast for many bodies, which stops before the last digits", "exact", "NAME");
   app.add_flag("--no-contacts", options.no_contacts, "Leave contacts out of the files");
-  add_file_options(app, options.output, ".csv (bodies and energies over time), .contacts.csv (contacts over time)");
+  add_output_options(app, options.output, ".csv (bodies and energies over time), .contacts.csv (contacts)");
   add_report_options(app, options.report);
   app.callback([&] { command = [&] { return run_scene(options); }; });
 }
@@ -173,7 +171,7 @@ void add_render(CLI::App& program, RenderOptions& options, std::function<int()>&
   app.add_option("file", options.input, "Trajectory written by `tumble drop -o`: .csv .npz .h5")
       ->type_name("FILE")
       ->required();
-  add_output_options(app, options.output);
+  add_output_options(app, options.output, ".csv .npz .h5 (data)");
   app.get_option("--output")->required();
   add_report_options(app, options.report);
   app.callback([&] { command = [&] { return run_render(options); }; });

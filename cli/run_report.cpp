@@ -49,15 +49,8 @@ bool is_at_rest(const Trajectory& trajectory, std::span<const BodyState> states)
 }
 
 EnergyLedger total(const Trajectory& trajectory) {
-  EnergyLedger sum = trajectory.energy.back();  // kinetic and potential are those of the end
-  for (std::size_t k = 0; k + 1 < trajectory.energy.size(); ++k) {
-    const EnergyLedger& energy = trajectory.energy[k];
-    sum.external_work += energy.external_work;
-    sum.friction_loss += energy.friction_loss;
-    sum.impact_loss += energy.impact_loss;
-    sum.damping_loss += energy.damping_loss;
-    sum.stabilisation_work += energy.stabilisation_work;
-  }
+  EnergyLedger sum;
+  for (const EnergyLedger& energy : trajectory.energy) add_step(sum, energy);
   return sum;
 }
 

@@ -24,6 +24,7 @@ struct Settings {
   double step_size = 0.01;
   int rounds = 3;
   double at_least = 0.05;
+  std::string only;
   std::string output = "out";
 };
 
@@ -35,8 +36,8 @@ std::vector<Engine> all_engines(std::string& text) {
     engines.insert(engines.end(), more.begin(), more.end());
   };
   add("Chipmunk", "libchipmunk-dev", chipmunk_engines());
+  add("Tumble", "this project", tumble_engines());
   add("Box2D", "libbox2d-dev", box2d_engines());
-  if (engines.empty()) throw std::runtime_error("no engine was found when this was built");
   return engines;
 }
 
@@ -56,7 +57,9 @@ void run(const Settings& settings) {
   std::string text =
       fmt::format("# Scenes\n\nStep size {} s; medians of {} rounds.\n\n", settings.step_size, settings.rounds);
   const std::vector<Engine> engines = all_engines(text);
-  const std::vector<World> worlds = all_worlds();
+  std::vector<World> worlds = all_worlds();
+  if (!settings.only.empty()) std::erase_if(worlds, [&](const World& world) { return world.name != settings.only; });
+  if (worlds.empty()) throw std::runtime_error(fmt::format("--only: no world is named '{}'", settings.only));
   std::vector<Measurement> measurements;
   {
     Progress progress("worlds", worlds.size());
@@ -83,6 +86,7 @@ int main(int argc, char** argv) {
   app.add_option("--at-least", settings.at_least, "seconds that an engine runs a world in a round")
       ->check(CLI::Range(0.0, 1e3))
       ->capture_default_str();
+  app.add_option("--only", settings.only, "name of the one world to run");
   app.add_option("-o,--output", settings.output, "folder")->capture_default_str();
   try {
     app.parse(argc, argv);

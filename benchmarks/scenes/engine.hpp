@@ -31,5 +31,6 @@ struct Engine {
 // One entry for each of the settings that are compared; empty if the package was not found when this was built.
 std::vector<Engine> box2d_engines();
 std::vector<Engine> chipmunk_engines();
+std::vector<Engine> tumble_engines();
 
 }  // namespace tumble::bench

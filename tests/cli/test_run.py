@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from program import PROGRAM, ROOT, refuse, rows_of, succeed, tumble
 
 BALL = """
@@ -58,6 +59,25 @@ def test_the_tables_hold_the_motion(folder: Path) -> None:
     impulse = column(folder / "a.contacts.csv", "normal_impulse [N s]").sum()
     vy = column(samples, "ball, red.vy [m/s]")
     assert impulse == pytest.approx(2 * (vy[-1] - vy[0] + 9.81 * 0.5), rel=1e-12)
+
+
+def test_pictures_show_the_scene(folder: Path) -> None:
+    names = ["a.png", "a.svg", "a.gif", "a.mp4"]
+    succeed("run", "ball.toml", "--width", "480", "--height", "320", *[w for n in names for w in ("-o", n)], cwd=folder)
+    for name in ("a.png", "a.gif"):
+        assert Image.open(folder / name).size == (480, 320)
+    svg = (folder / "a.svg").read_text()
+    assert svg.rstrip().endswith("</svg>") and len(svg) > 10_000
+    film = Image.open(folder / "a.gif")
+    assert 20 < film.n_frames <= 26  # 0.5 s and the start, 50 pictures a second
+    assert (folder / "a.mp4").stat().st_size > 5000
+    succeed("run", "ball.toml", "--speed", "0.25", "-o", "slow.gif", cwd=folder)
+    assert 90 < Image.open(folder / "slow.gif").n_frames <= 101
+
+
+def test_a_film_that_would_be_too_long_is_refused_before_the_run(folder: Path) -> None:
+    message = refuse("run", "flight.toml", "-o", "a.gif", cwd=folder)
+    assert "animation: at most 60 s of film are made, this run needs 1e+06 s" in message
 
 
 def test_options_set_steps_and_samples(folder: Path) -> None:
@@ -121,7 +141,7 @@ def test_created_energy_is_flagged_with_its_time(folder: Path) -> None:
     [
         (["none.toml"], "cannot read none.toml: No such file or directory"),
         (["."], "cannot read .: Is a directory"),
-        (["ball.toml", "-o", "a.txt"], "a.txt: the name must end in .contacts.csv"),
+        (["ball.toml", "-o", "a.txt"], "a.txt: the name must end in .contacts.csv, .csv, .gif, .mp4, .png or .svg"),
         (["ball.toml", "-o", "none/a.csv"], "none/a.csv: the folder none cannot be used"),
         (["ball.toml", "-o", "old.csv"], "old.csv: already exists; --force replaces it"),
         (["ball.toml", "-o", "a.csv", "-o", "./a.csv"], "--output: ./a.csv is named twice"),

@@ -6,6 +6,7 @@
 #include <gif_lib.h>
 
 #include "tumble/output/animation.hpp"
+#include "tumble/output/drop_trajectory.hpp"
 #include "tumble/output/gif.hpp"
 #include "tumble/output/impulses.hpp"
 #include "tumble/output/strobe.hpp"
@@ -20,50 +21,50 @@ namespace {
 
 using test::has;
 
-drop::Record run(const Vector3& q, const Vector3& v, const drop::Parameters& parameters) {
-  return drop::simulate_with_record(q, v, parameters);
+Trajectory run(const Vector3& q, const Vector3& v, const drop::Parameters& parameters) {
+  return trajectory_of(drop::simulate_with_record(q, v, parameters));
 }
+
+Trajectory course_run(int columns = 150) { return trajectory_of(test::course_record(columns)); }
 
 // Starts that leave a naive picture without a size, without a scale, or with coordinates that no number tells
 // apart.
-std::vector<drop::Record> odd_records() {
-  std::vector<drop::Record> records = {test::course_record(2), test::course_record(3)};
+std::vector<Trajectory> odd_runs() {
+  std::vector<Trajectory> runs = {course_run(2), course_run(3)};
   drop::Parameters p;
   p.columns = 20;
   p.g = 0.0;
-  records.push_back(run({0.0, 1.0, 0.3}, {0.0, 0.0, 0.0}, p));  // no motion
+  runs.push_back(run({0.0, 1.0, 0.3}, {0.0, 0.0, 0.0}, p));  // no motion
   p = {.columns = 20};
-  records.push_back(run({1e9, 1e6, 0.3}, {1.0, 0.0, 0.0}, p));    // far from the ground and from the origin
-  records.push_back(run({0.0, 1e9, 0.3}, {1e9, 1e9, 2.0}, p));    // a speck on a long way
-  records.push_back(run({1e15, 1e15, 0.3}, {0.0, 0.0, 0.0}, p));  // steps below the spacing of double
-  records.push_back(run({0.0, -50.0, 0.3}, {1.0, 0.0, 0.0}, p));  // below the ground
-  records.push_back(run({-1e99, 1e99, 0.3}, {1e99, 0.0, 0.0}, p));
-  records.push_back(run({0.0, 0.2, 1e12}, {0.0, 0.0, 1e12}, p));
+  runs.push_back(run({1e9, 1e6, 0.3}, {1.0, 0.0, 0.0}, p));    // far from the ground and from the origin
+  runs.push_back(run({0.0, 1e9, 0.3}, {1e9, 1e9, 2.0}, p));    // a speck on a long way
+  runs.push_back(run({1e15, 1e15, 0.3}, {0.0, 0.0, 0.0}, p));  // steps below the spacing of double
+  runs.push_back(run({0.0, -50.0, 0.3}, {1.0, 0.0, 0.0}, p));  // below the ground
+  runs.push_back(run({-1e99, 1e99, 0.3}, {1e99, 0.0, 0.0}, p));
+  runs.push_back(run({0.0, 0.2, 1e12}, {0.0, 0.0, 1e12}, p));
   p = {.l = 1e-9, .dt = 1e-6, .delta = 1e-12, .columns = 150};
-  records.push_back(run({0.0, 1e-9, 0.3}, {1e-5, 0.0, 1e3}, p));
+  runs.push_back(run({0.0, 1e-9, 0.3}, {1e-5, 0.0, 1e3}, p));
   p = {.l = 1e9, .dt = 100.0, .delta = 0.0, .columns = 20};
-  records.push_back(run({0.0, 1.5e9, 0.5}, {0.0, 0.0, 0.0}, p));
+  runs.push_back(run({0.0, 1.5e9, 0.5}, {0.0, 0.0, 0.0}, p));
   p = {.mu = 1e300, .columns = 50};
-  records.push_back(run({0.0, 0.2, 0.5}, {2.0, 0.0, 0.0}, p));
+  runs.push_back(run({0.0, 0.2, 0.5}, {2.0, 0.0, 0.0}, p));
   p = {.m = 1e200, .g = 1e100, .columns = 5};
-  records.push_back(run({0.0, 1.0, 0.5}, {0.0, 0.0, 0.0}, p));  // energies beyond the range of double
-  return records;
+  runs.push_back(run({0.0, 1.0, 0.5}, {0.0, 0.0, 0.0}, p));  // energies beyond the range of double
+  return runs;
 }
 
 TEST(View, FitsTheWholePathAndKeepsTheAspect) {
-  const Frame frame{70.0, 100.0, 400.0, 300.0};
-  for (const drop::Record& record : odd_records()) {
-    const View view = fit_view(box_of(record), record.parameters.l, frame, {10.0, 10.0, 20.0});
+  const Area area{70.0, 100.0, 400.0, 300.0};
+  for (const Trajectory& trajectory : odd_runs()) {
+    const View view = fit_view(sight_of(trajectory), area, {10.0, 10.0, 20.0});
     ASSERT_TRUE(std::isfinite(view.scale) && view.scale > 0.0);
-    for (int k = 0; k < record.trajectory.columns; ++k) {
-      const Vector3 q = record.trajectory.q_at(k);
-      const Point point = view.to_pixel(q[0], q[1]);
-      EXPECT_GE(point.x, frame.left);
-      EXPECT_LE(point.x, frame.right());
-      EXPECT_GE(point.y, frame.top);
-      EXPECT_LE(point.y, frame.bottom());
+    for (std::size_t k = 0; k < trajectory.time.size(); ++k) {
+      const Point point = view.to_pixel(trajectory.bodies(k)[1].pose.position);
+      EXPECT_GE(point.x, area.left);
+      EXPECT_LE(point.x, area.right());
+      EXPECT_GE(point.y, area.top);
+      EXPECT_LE(point.y, area.bottom());
     }
-    EXPECT_NEAR(view.side, view.scale * record.parameters.l, 1e-9 * view.side);
   }
 }
 
@@ -71,14 +72,14 @@ TEST(View, RefusesWhatNoPictureCanHold) {
   drop::Parameters p;
   p.columns = 3;
   for (const Vector3& q : {Vector3{0.0, 1e200, 0.0}, Vector3{-1e101, 1.0, 0.0}}) {
-    const std::string text = test::message_of<std::invalid_argument>([&] { box_of(run(q, {}, p)); });
+    const std::string text = test::message_of<std::invalid_argument>([&] { sight_of(run(q, {}, p)); });
     EXPECT_TRUE(has(text, "picture: positions must lie in [-1e+100, 1e+100] m")) << text;
   }
 }
 
 TEST(View, TicksAreFewAndDifferent) {
-  for (const drop::Record& record : odd_records()) {
-    const View view = fit_view(box_of(record), record.parameters.l, {70.0, 100.0, 400.0, 300.0}, {10.0, 10.0, 20.0});
+  for (const Trajectory& trajectory : odd_runs()) {
+    const View view = fit_view(sight_of(trajectory), {70.0, 100.0, 400.0, 300.0}, {10.0, 10.0, 20.0});
     for (const Axis& axis : {axis_x(view, 6), axis_y(view, 6)}) {
       EXPECT_LE(axis.ticks.size(), 8u);
       EXPECT_GE(axis.ticks.size(), 2u);
@@ -104,30 +105,30 @@ TEST(View, NiceNumbersAreOneTwoFive) {
 
 TEST(Impulses, AreForceTimesStep) {
   const drop::Record record = test::course_record();
-  const std::vector<Impulse> impulses = contact_impulses(record);
+  const std::vector<Impulse> impulses = largest_of_each_touch(trajectory_of(record));
   ASSERT_EQ(impulses.size(), 6u) << "contacts of the document's first start";
-  EXPECT_EQ(impulses[0].column, 51);
+  EXPECT_EQ(impulses[0].step, 52) << "from column 51";
   const Vector4 z = record.steps[51].z;
-  EXPECT_DOUBLE_EQ(impulses[0].normal, 0.01 * z[0]);
-  EXPECT_DOUBLE_EQ(impulses[0].tangent, 0.01 * (z[2] - z[1]));
+  EXPECT_DOUBLE_EQ(impulses[0].along_normal, 0.01 * z[0]);
+  EXPECT_DOUBLE_EQ(impulses[0].along_tangent, 0.01 * (z[2] - z[1]));
   EXPECT_DOUBLE_EQ(largest_size(impulses), impulses[0].size);
   const std::vector<Impulse> two = keep_largest(impulses, 2, 0.0);
   ASSERT_EQ(two.size(), 2u);
-  EXPECT_LT(two[0].column, two[1].column);
+  EXPECT_LT(two[0].step, two[1].step);
   EXPECT_EQ(keep_largest(impulses, 10, 0.5 * impulses[0].size).size(), 1u);
 }
 
-TEST(Strobe, DrawsOddRecords) {
-  for (const drop::Record& record : odd_records()) {
-    EXPECT_TRUE(to_strobe_png(record).starts_with("\x89PNG"));
-    const std::string svg = to_strobe_svg(record);
+TEST(Strobe, DrawsOddRuns) {
+  for (const Trajectory& trajectory : odd_runs()) {
+    EXPECT_TRUE(to_strobe_png(trajectory).starts_with("\x89PNG"));
+    const std::string svg = to_strobe_svg(trajectory);
     EXPECT_TRUE(has(svg, "<svg") && has(svg, "</svg>"));
     EXPECT_FALSE(has(svg, "nan") || has(svg, "inf"));
   }
 }
 
 TEST(Strobe, HasTheSizeAskedFor) {
-  const drop::Record record = test::course_record();
+  const Trajectory trajectory = course_run();
   const auto size_of = [](const std::string& png) {
     const auto number = [&](std::size_t at) {
       int value = 0;
@@ -136,24 +137,24 @@ TEST(Strobe, HasTheSizeAskedFor) {
     };
     return std::pair{number(16), number(20)};
   };
-  EXPECT_EQ(size_of(to_strobe_png(record, 800, 600)), std::pair(800, 600));
-  EXPECT_EQ(size_of(to_strobe_png(record, 160, 160)), std::pair(160, 160));
-  EXPECT_EQ(size_of(to_strobe_png(record, 1000, 0)).first, 1000);
-  EXPECT_EQ(size_of(to_strobe_png(record, 0, 700)).second, 700);
+  EXPECT_EQ(size_of(to_strobe_png(trajectory, 800, 600)), std::pair(800, 600));
+  EXPECT_EQ(size_of(to_strobe_png(trajectory, 160, 160)), std::pair(160, 160));
+  EXPECT_EQ(size_of(to_strobe_png(trajectory, 1000, 0)).first, 1000);
+  EXPECT_EQ(size_of(to_strobe_png(trajectory, 0, 700)).second, 700);
 }
 
-TEST(Strobe, TheSameRecordGivesTheSameBytes) {
-  const drop::Record record = test::course_record();
-  EXPECT_TRUE(to_strobe_png(record) == to_strobe_png(record));
-  EXPECT_TRUE(to_strobe_svg(record) == to_strobe_svg(record));
-  EXPECT_TRUE(to_gif(record, 320, 200) == to_gif(record, 320, 200));
+TEST(Strobe, TheSameRunGivesTheSameBytes) {
+  const Trajectory trajectory = course_run();
+  EXPECT_TRUE(to_strobe_png(trajectory) == to_strobe_png(trajectory));
+  EXPECT_TRUE(to_strobe_svg(trajectory) == to_strobe_svg(trajectory));
+  EXPECT_TRUE(to_gif(trajectory, 320, 200) == to_gif(trajectory, 320, 200));
 }
 
 TEST(Strobe, OfALongRunStaysSmall) {
   drop::Parameters parameters;
   parameters.columns = 200'000;
-  const drop::Record record = run({0.0, 0.5, 0.3}, {2.0, 0.0, -3.0}, parameters);
-  EXPECT_LT(to_strobe_svg(record).size(), 1'000'000u);
+  const Trajectory trajectory = run({0.0, 0.5, 0.3}, {2.0, 0.0, -3.0}, parameters);
+  EXPECT_LT(to_strobe_svg(trajectory).size(), 1'000'000u);
 }
 
 TEST(Animation, ShowsRealTime) {
@@ -204,8 +205,8 @@ struct Gif {
 };
 
 TEST(GifFile, LastsAsLongAsTheRunAndTheHold) {
-  const drop::Record record = test::course_record();
-  const Gif gif(to_gif(record, 640, 400));
+  const Trajectory trajectory = course_run();
+  const Gif gif(to_gif(trajectory, 640, 400));
   ASSERT_TRUE(gif.good);
   EXPECT_LT(gif.bytes.size(), 400'000u);
   EXPECT_EQ(gif.file->SWidth, 640);
@@ -221,10 +222,10 @@ TEST(GifFile, LastsAsLongAsTheRunAndTheHold) {
 }
 
 TEST(GifFile, PatchesAddUpToTheWholePictures) {
-  const drop::Record record = test::course_record(60);
-  const Gif gif(to_gif(record, 320, 200));
+  const Trajectory trajectory = course_run(60);
+  const Gif gif(to_gif(trajectory, 320, 200));
   ASSERT_TRUE(gif.good);
-  Animation animation(record, 320, 200, 1.0, k_max_gif_frames);
+  Animation animation(trajectory, 320, 200, 1.0, k_max_gif_frames);
   ASSERT_EQ(gif.file->ImageCount, animation.frames());
   std::vector<int> shown(320 * 200, -1);
   for (int i = 0; i < animation.frames(); ++i) {
@@ -251,13 +252,13 @@ TEST(GifFile, PatchesAddUpToTheWholePictures) {
   }
 }
 
-TEST(GifFile, DrawsOddRecords) {
-  for (const drop::Record& record : odd_records()) {
-    if ((record.trajectory.columns - 1) * record.parameters.dt > 60.0) {
-      EXPECT_THROW(to_gif(record, 160, 160), std::invalid_argument);
+TEST(GifFile, DrawsOddRuns) {
+  for (const Trajectory& trajectory : odd_runs()) {
+    if (trajectory.time.back() > 60.0) {
+      EXPECT_THROW(to_gif(trajectory, 160, 160), std::invalid_argument);
       continue;
     }
-    EXPECT_TRUE(Gif(to_gif(record, 160, 160)).good);
+    EXPECT_TRUE(Gif(to_gif(trajectory, 160, 160)).good);
   }
 }
 

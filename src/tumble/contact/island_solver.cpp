@@ -13,7 +13,7 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_accepted_residual = 1e-10;
-constexpr double k_rest_residual = 1e-15;  // what is left is round-off: nothing to improve
+constexpr double k_rest_rounding = 1e-15;  // [-] what is left is round-off: nothing to improve
 constexpr int k_max_path_steps = 20;       // and 2 per contact
 constexpr int k_num_sweeps = 10;
 constexpr int k_max_soft_rounds = 8;
@@ -107,16 +107,16 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
     parts_->best_modes = search.modes;
     parts_->best_impulses = search.impulses;
     parts_->best_residual = search.residual();
-  } else if (parts_->best_residual > k_rest_residual && !parts_->run()) {
+  } else if (search.rounding() > k_rest_rounding && !parts_->run()) {
     search.modes = modes;
     search.impulses = parts_->start_impulses;
-    if (!parts_->harden()) {
+    if (!parts_->harden() && !parts_->offer() && parts_->best_residual > k_accepted_residual) {
       status = LcpStatus::iteration_limit;
-      parts_->offer();
       if (system.contacts.size() <= k_max_dense_contacts) status = parts_->search_dense(system);
     }
   }
   search.impulses = parts_->best_impulses;
+  search.project();
   modes = parts_->best_modes;
   impulses = search.impulses;
   velocity = search.find_velocities();

@@ -8,9 +8,10 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double k_ridge = 1e-10;      // [-] of the diagonal of A
-constexpr double k_round_off = 1e-13;  // relative: contradictions below are not real
-constexpr int k_max_corrections = 12;  // each gains the digits that ridge over the smallest eigenvalue of A leaves
+constexpr double k_ridge = 1e-10;          // [-] of the diagonal of A
+constexpr double k_round_off = 1e-13;      // relative: contradictions below are not real
+constexpr double k_rounding_share = 1e-4;  // an accepted residual of 1e-10 is then some 50 times the rounding of terms
+constexpr int k_max_corrections = 12;      // each gains the digits that ridge over the smallest eigenvalue of A leaves
 
 double slip_direction(ContactMode mode) {
   return mode == ContactMode::slip_left ? -1.0 : mode == ContactMode::slip_right ? 1.0 : 0.0;
@@ -85,6 +86,10 @@ void BodyModes::start() {
 
 const std::vector<Vector3>& BodyModes::find_velocities() {
   v_ = system_->velocity;
+  terms_.resize(v_.size());
+  for (Index b = 0; b < v_.size(); ++b) {
+    for (Index j = 0; j < 3; ++j) terms_[b][j] = std::abs(v_[b][j]);
+  }
   for (Index i = 0; i < modes.size(); ++i) {
     const double f_n = impulses[2 * i], f_t = impulses[2 * i + 1];
     if (f_n == 0.0 && f_t == 0.0) continue;
@@ -92,7 +97,11 @@ const std::vector<Vector3>& BodyModes::find_velocities() {
     const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
       if (body < 0) return;
       const auto b = static_cast<Index>(body);
-      add_impulse(v_[b], system_->inverse_mass[b], normal, tangent, f_n, f_t);
+      for (Index j = 0; j < 3; ++j) {
+        const double w = system_->inverse_mass[b][j], term_n = w * normal[j] * f_n, term_t = w * tangent[j] * f_t;
+        v_[b][j] += w * (normal[j] * f_n + tangent[j] * f_t);
+        terms_[b][j] += std::abs(term_n) + std::abs(term_t);
+      }
     };
     add(c.body_a, c.normal_a, c.tangent_a);
     add(c.body_b, c.normal_b, c.tangent_b);
@@ -100,22 +109,20 @@ const std::vector<Vector3>& BodyModes::find_velocities() {
   return v_;
 }
 
-// u of the present velocities, and the sizes of the terms that they are sums of.
+// u of the present velocities, and the sizes of the terms that they are sums of, impulse by impulse.
 void BodyModes::find_contact_velocities() {
   for (Index i = 0; i < modes.size(); ++i) {
     const BodyContact& c = system_->contacts[i];
     double n = c.offset, t = c.tangent_offset;
-    double size_n = speed_ + response_[i].nn * std::abs(impulses[2 * i]);
-    double size_t = speed_ + response_[i].tt * std::abs(impulses[2 * i + 1]);
+    double size_n = speed_, size_t = speed_;
     const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
       if (body < 0) return;
-      const Vector3& v = v_[static_cast<Index>(body)];
+      const Vector3 &v = v_[static_cast<Index>(body)], &terms = terms_[static_cast<Index>(body)];
       for (Index j = 0; j < 3; ++j) {
-        const double term_n = normal[j] * v[j], term_t = tangent[j] * v[j];
-        n += term_n;
-        t += term_t;
-        size_n += std::abs(term_n);
-        size_t += std::abs(term_t);
+        n += normal[j] * v[j];
+        t += tangent[j] * v[j];
+        size_n += std::abs(normal[j]) * terms[j];
+        size_t += std::abs(tangent[j]) * terms[j];
       }
     };
     add(c.body_a, c.normal_a, c.tangent_a);
@@ -129,14 +136,19 @@ double BodyModes::residual() {
   find_velocities();
   find_contact_velocities();
   double largest = 0.0;
+  rounding_ = 0.0;
+  const auto add = [&](double violation, double size) {
+    if (!(size > 0.0)) return;
+    largest = std::max(largest, violation / (speed_ + k_rounding_share * size));
+    rounding_ = std::max(rounding_, violation / size);
+  };
   for (Index i = 0; i < modes.size(); ++i) {
     const double f_n = impulses[2 * i], f_t = impulses[2 * i + 1];
     const auto [u_n, u_t] = u_[i];
-    const auto [size_n, size_t] = size_[i];
-    if (size_n > 0.0) largest = std::max(largest, std::abs(std::min(response_[i].nn * f_n, u_n)) / size_n);
+    add(std::abs(std::min(response_[i].nn * f_n, u_n)), size_[i][0]);
     const double limit = system_->contacts[i].friction * std::max(f_n, 0.0);
     const double next = std::clamp(f_t - u_t / response_[i].tt, -limit, limit);
-    if (size_t > 0.0) largest = std::max(largest, std::abs(f_t - next) * response_[i].tt / size_t);
+    add(std::abs(f_t - next) * response_[i].tt, size_[i][1]);
   }
   return largest;
 }
@@ -245,7 +257,7 @@ double BodyModes::correct() {
     add(c.body_a, c.normal_a, c.tangent_a);
     add(c.body_b, c.normal_b, c.tangent_b);
   }
-  if (largest <= k_round_off / 100.0) return largest;
+  if (largest <= k_round_off / 1000.0) return largest;
   equations_.solve(step_);
   for (Index i = 0; i < modes.size(); ++i) {
     if (modes[i] == ContactMode::open) continue;
@@ -298,7 +310,7 @@ bool BodyModes::iterate(int max_rounds) {
       find_contact_velocities();
       const double error = correct();
       if (!std::isfinite(error)) return false;
-      if (error <= k_round_off / 100.0 || (count >= 2 && error > 0.5 * before)) break;
+      if (error <= k_round_off / 1000.0 || (count >= 2 && error > 0.5 * before)) break;
       before = error;
     }
     find_velocities();

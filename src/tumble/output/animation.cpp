@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "tumble/output/draw.hpp"
-#include "tumble/output/record_fields.hpp"
+#include "tumble/output/draw_bodies.hpp"
 
 namespace tumble::output {
 namespace {
@@ -26,35 +29,33 @@ constexpr Margins k_margins = {12.0, 12.0, 20.0};
 constexpr double k_longest_arrow = 76.0;
 constexpr double k_text = 10.5;
 
-constexpr double k_fade_time = 0.3;           // of an impulse [s of the film]
-constexpr std::size_t k_most_new_arrows = 3;  // per picture; a fine dt has thousands of contact steps in one
-constexpr double k_smallest_arrow = 0.02;     // of the largest impulse
-
-// What stands for the square in all pictures.
-constexpr SquareStyle k_square = {{0.62, 0.73, 0.85}, {k_body, 1.6}, k_body};
+constexpr double k_fade_time = 0.3;            // of an impulse [s of the film]
+constexpr std::size_t k_most_new_arrows = 40;  // per picture
+constexpr int k_most_paths = 20;
+constexpr double k_smallest_arrow = 0.02;  // of the largest impulse
 
 std::string energy_text(double value, double largest) {
   if (!(std::abs(largest) < 1e6) || largest < 1e-4) return fmt::format("{:.2e} J", value);
   return fmt::format("{:.{}f} J", value, decimals_for(largest, 0));
 }
 
-struct Energies {
-  double kinetic;
-  double potential;
+// The lowest and the highest value that the bars show [J].
+struct EnergyRange {
+  double low = 0.0;
+  double high = 0.0;
+
+  double largest() const { return std::max(-low, high); }
+  double share(double value) const { return high > low ? std::clamp((value - low) / (high - low), 0.0, 1.0) : 0.0; }
 };
 
-Energies energies_at(const drop::Record& record, int column) {
-  return {kinetic_at(record, column), potential_at(record, column)};
-}
-
-// The largest magnitude of the sum, the scale of the bars [J].
-double largest_energy(const drop::Record& record) {
-  double largest = 0.0;
-  for (int k = 0; k < record.trajectory.columns; ++k) {
-    const auto [kinetic, potential] = energies_at(record, k);
-    if (std::isfinite(kinetic + potential)) largest = std::max({largest, kinetic, std::abs(potential)});
+EnergyRange energy_range(const Trajectory& trajectory) {
+  EnergyRange range;
+  for (const EnergyLedger& energy : trajectory.energy) {
+    if (!std::isfinite(energy.kinetic + energy.potential)) continue;
+    range.low = std::min({range.low, energy.potential, energy.kinetic + energy.potential});
+    range.high = std::max({range.high, energy.kinetic, energy.potential, energy.kinetic + energy.potential});
   }
-  return largest;
+  return range;
 }
 
 struct ShownImpulse {
@@ -65,33 +66,36 @@ struct ShownImpulse {
 }  // namespace
 
 struct Animation::Parts {
-  Parts(const drop::Record& the_record, int width, int height, double the_speed, int max_frames);
+  Parts(const Trajectory& the_trajectory, int width, int height, double the_speed, int max_frames);
 
-  int column_of(int frame) const;
+  std::size_t sample_of(int frame) const;
   void draw_background();
   void draw_impulse_legend(double left, double top);
-  void draw_motion(int frame, int column);
+  void draw_motion(int frame, std::size_t sample);
   void draw_arrows(int frame);
-  void draw_panel(int column);
-  void extend_path(int column);
-  void collect_impulses(int frame, int column);
+  void draw_panel(std::size_t sample);
+  void extend_paths(std::size_t sample);
+  void collect_impulses(int frame, std::size_t sample);
+  void take(const Impulse& impulse, int frame);
   double arrow_length(const Impulse& impulse) const;
 
-  const drop::Record& record;
+  const Trajectory& trajectory;
   double speed;
   int frames;
   double scale;
   Canvas background;
   Canvas canvas;
   View view;
-  Frame panel;
-  std::vector<Impulse> impulses;
-  double largest;         // impulse [N s]
-  double largest_joules;  // [J]
-  int time_decimals;
+  Area panel;
+  std::optional<BodyDrawing> bodies;
+  double arrow_room = 0.0;  // [px]
+  double largest = 0.0;     // impulse [N s]
+  EnergyRange energies;
+  int time_decimals = 0;
 
-  std::size_t next_impulse = 0;  // the first one after the column drawn last
-  int path_column = 0;           // the path is in the background up to here
+  std::size_t next_step = 0;    // index into trajectory.contacts: the first one after the sample drawn last
+  std::size_t path_sample = 0;  // the paths are in the background up to here
+  double created = 0.0;         // energy from nothing up to path_sample [J]
   std::vector<ShownImpulse> shown;
 };
 
@@ -111,56 +115,61 @@ int count_frames(double motion, double speed, int max_frames) {
   return static_cast<int>(frames);
 }
 
-Animation::Parts::Parts(const drop::Record& the_record, int width, int height, double the_speed, int max_frames)
-    : record(the_record),
+Animation::Parts::Parts(const Trajectory& the_trajectory, int width, int height, double the_speed, int max_frames)
+    : trajectory(the_trajectory),
       speed(the_speed),
-      frames(count_frames((record.trajectory.columns - 1) * record.parameters.dt, speed, max_frames)),
+      frames(count_frames(trajectory.time.back(), speed, max_frames)),
       scale(std::min(width / k_design_width, height / k_design_height)),
       background(Canvas::image(width, height, scale)),
       canvas(Canvas::image(width, height, scale)) {
   const double design_width = width / scale;
-  const Frame frame{k_left, k_top, design_width - k_left - k_gap - k_panel - k_right,
-                    height / scale - k_top - k_bottom};
-  panel = {frame.right() + k_gap, k_top, k_panel, frame.height};
-  view = fit_view(box_of(record), record.parameters.l, frame, k_margins);
-  impulses = contact_impulses(record);
-  largest = largest_size(impulses);
-  largest_joules = largest_energy(record);
-  time_decimals = decimals_for((record.trajectory.columns - 1) * record.parameters.dt, 2);
+  const Area area{k_left, k_top, design_width - k_left - k_gap - k_panel - k_right, height / scale - k_top - k_bottom};
+  panel = {area.right() + k_gap, k_top, k_panel, area.height};
+  view = fit_view(sight_of(trajectory), area, k_margins);
+  bodies.emplace(trajectory.scene, view);
+  arrow_room = bodies->arrow_room(k_longest_arrow);
+  for (const StepContacts& step : trajectory.contacts) {
+    for (const ContactRecord& record : step.contacts) {
+      largest = std::max(largest, impulse_of(record, trajectory.scene, step.step).size);
+    }
+  }
+  energies = energy_range(trajectory);
+  time_decimals = decimals_for(trajectory.time.back(), 2);
   draw_background();
 }
 
-int Animation::Parts::column_of(int frame) const {
-  const double column = std::round(frame * k_frame_time * speed / record.parameters.dt);
-  const int last = record.trajectory.columns - 1;
-  return frame == frames - 1 || column >= last ? last : static_cast<int>(column);
+std::size_t Animation::Parts::sample_of(int frame) const {
+  return frame == frames - 1 ? trajectory.time.size() - 1 : sample_at(trajectory, frame * k_frame_time * speed);
 }
 
 double Animation::Parts::arrow_length(const Impulse& impulse) const {
-  const double room = std::min(k_longest_arrow, 0.3 * view.frame.height);
-  return largest > 0.0 ? room * impulse.size / largest : 0.0;
+  return largest > 0.0 ? arrow_room * impulse.size / largest : 0.0;
 }
 
 void Animation::Parts::draw_background() {
   background.fill(k_paper);
-  std::string title = parameters_text(record.parameters);
+  std::string title = fmt::format("{}:  {}", title_of(trajectory), facts_text(trajectory));
   if (speed != 1.0) title += fmt::format(",  {:.4g} × real time", speed);
   draw_text_within(background, panel.right() - k_left, {k_left, 18.0}, title, {k_text, k_muted});
-  draw_surroundings(background, view, 10.0);
+  draw_axes(background, view, 10.0);
+  background.clip(view.area);
+  bodies->draw_fixed(background);
+  background.unclip();
   draw_impulse_legend(panel.left, panel.top + 168.0);
 }
 
 void Animation::Parts::draw_impulse_legend(double left, double top) {
   background.draw_text({left, top}, "Contact impulse", {k_text, k_ink, Align::left, true});
-  if (impulses.empty()) {
+  if (largest == 0.0) {
     background.draw_text({left, top + 16.0}, "none in this run", {k_text, k_muted});
     return;
   }
-  const double nice = round_down_nicely(0.7 * largest);
-  const Impulse sample{0, 0.0, nice, nice, ContactMode::open};
+  Impulse sample;
+  sample.normal = {1.0, 0.0};
+  sample.size = sample.along_normal = round_down_nicely(0.7 * largest);
   const double length = arrow_length(sample);
   draw_impulse(background, {left, top + 15.0}, sample, {length, 2.2, k_ink});
-  background.draw_text({left + length + 7.0, top + 15.0 + 0.36 * k_text}, fmt::format("{:.6g} N s", nice),
+  background.draw_text({left + length + 7.0, top + 15.0 + 0.36 * k_text}, fmt::format("{:.6g} N s", sample.size),
                        {k_text, k_muted});
   double y = top + 34.0;
   for (const ContactMode mode : {ContactMode::stick, ContactMode::slip_left, ContactMode::slip_right}) {
@@ -170,21 +179,46 @@ void Animation::Parts::draw_impulse_legend(double left, double top) {
   }
 }
 
-// The path only grows: what is new of it is added to the background, so that a long run costs no more per
+// The paths only grow: what is new of them is added to the background, so that a long run costs no more per
 // picture.
-void Animation::Parts::extend_path(int column) {
-  background.clip(view.frame);
-  draw_path(background, view, record, path_column, column, {mix(k_paper, k_body, 0.5), 1.1});
-  background.unclip();
-  path_column = column;
+void Animation::Parts::extend_paths(std::size_t sample) {
+  for (std::size_t k = path_sample + 1; k <= sample; ++k) created += trajectory.energy[k].created;
+  if (bodies->moving().size() <= k_most_paths) {
+    background.clip(view.area);
+    for (const std::size_t body : bodies->moving()) {
+      draw_path(background, view, trajectory, body, path_sample, sample,
+                {mix(k_paper, bodies->colours(body).deep, 0.5), 1.1});
+    }
+    background.unclip();
+  }
+  path_sample = sample;
 }
 
-void Animation::Parts::collect_impulses(int frame, int column) {
-  std::vector<Impulse> fresh;
-  while (next_impulse < impulses.size() && impulses[next_impulse].column <= column)
-    fresh.push_back(impulses[next_impulse++]);
-  for (const Impulse& impulse : keep_largest(std::move(fresh), k_most_new_arrows, k_smallest_arrow * largest)) {
+// One arrow for each contact: the newest, or the largest of one picture.
+void Animation::Parts::take(const Impulse& impulse, int frame) {
+  const auto old = std::find_if(shown.begin(), shown.end(), [&](const ShownImpulse& s) {
+    return is_same_contact(s.impulse.contact, impulse.contact);
+  });
+  if (old == shown.end()) {
     shown.push_back({impulse, frame});
+  } else {
+    *old = {impulse, frame};
+  }
+}
+
+void Animation::Parts::collect_impulses(int frame, std::size_t sample) {
+  std::vector<Impulse> fresh;
+  const double until = trajectory.time[sample] + 0.5 * trajectory.step_size;
+  for (; next_step < trajectory.contacts.size(); ++next_step) {
+    const StepContacts& step = trajectory.contacts[next_step];
+    if (static_cast<double>(step.step) * trajectory.step_size > until) break;
+    for (const ContactRecord& record : step.contacts) {
+      fresh.push_back(impulse_of(record, trajectory.scene, step.step));
+    }
+  }
+  const double smallest = std::max(k_smallest_arrow * largest, std::numeric_limits<double>::min());
+  for (const Impulse& impulse : largest_of_each_contact(std::move(fresh), k_most_new_arrows, smallest)) {
+    take(impulse, frame);
   }
   std::erase_if(shown, [&](const ShownImpulse& old) { return (frame - old.frame) * k_frame_time >= k_fade_time; });
 }
@@ -192,59 +226,67 @@ void Animation::Parts::collect_impulses(int frame, int column) {
 void Animation::Parts::draw_arrows(int frame) {
   for (const auto& [impulse, since] : shown) {
     const double opacity = 1.0 - (frame - since) * k_frame_time / k_fade_time;
-    const Point contact = contact_pixel(view, record, impulse.column);
+    const Point contact = view.to_pixel(impulse.place);
     const double length = arrow_length(impulse);
-    if (length >= 6.0) draw_cone(canvas, contact, record.parameters.mu, 1.15 * length, opacity);
+    if (length >= 6.0 && !bodies->is_crowd())
+      draw_cone(canvas, contact, impulse.normal, impulse.friction, 1.15 * length, opacity);
     // Mixed with the paper instead of see-through: a .gif has few colours.
     const Colour colour = mix(k_paper, colour_of(impulse.mode), opacity);
     draw_impulse(canvas, contact, impulse, {length, length < 10.0 ? 1.4 : 2.2, colour});
-    canvas.draw_disc(contact, 2.6, colour);
+    if (!bodies->is_crowd()) canvas.draw_disc(contact, 2.6, colour);
   }
 }
 
-void Animation::Parts::draw_motion(int frame, int column) {
-  canvas.clip(view.frame);
-  draw_square(canvas, view, record.trajectory.q_at(column), record.parameters, k_square);
+void Animation::Parts::draw_motion(int frame, std::size_t sample) {
+  canvas.clip(view.area);
+  const std::span<const BodyState> states = trajectory.bodies(sample);
+  for (const std::size_t body : bodies->moving()) {
+    bodies->draw(canvas, body, states[body].pose, solid_style(bodies->colours(body)));
+  }
+  bodies->draw_conveyors(canvas, states, trajectory.time[sample]);
   draw_arrows(frame);
   canvas.unclip();
 }
 
-void Animation::Parts::draw_panel(int column) {
+void Animation::Parts::draw_panel(std::size_t sample) {
   const double left = panel.left;
-  canvas.draw_text({left, panel.top + 14.0}, fmt::format("t = {:.{}f} s", column * record.parameters.dt, time_decimals),
+  canvas.draw_text({left, panel.top + 14.0}, fmt::format("t = {:.{}f} s", trajectory.time[sample], time_decimals),
                    {17.0, k_ink, Align::left, true});
   canvas.draw_text({left, panel.top + 44.0}, "Energy", {k_text, k_ink, Align::left, true});
-  const auto [kinetic, potential] = energies_at(record, column);
+  const EnergyLedger& energy = trajectory.energy[sample];
   double y = panel.top + 62.0;
-  const auto draw_row = [&](std::string_view name, double value) {
+  const auto draw_row = [&](std::string_view name, double value, double low) {
     canvas.draw_text({left, y}, name, {k_text, k_muted});
-    canvas.draw_text({left + k_panel, y}, energy_text(value, largest_joules), {k_text, k_ink, Align::right});
-    const double share = largest_joules > 0.0 ? std::clamp(value / largest_joules, 0.0, 1.0) : 0.0;
+    canvas.draw_text({left + k_panel, y}, energy_text(value, energies.largest()), {k_text, k_ink, Align::right});
+    const double share = energies.share(value - low + energies.low);
     canvas.fill_rectangle({left, y + 5.0, k_panel, 3.0}, k_grid);
-    if (share > 0.0) canvas.fill_rectangle({left, y + 5.0, k_panel * share, 3.0}, k_body);
+    if (share > 0.0) canvas.fill_rectangle({left, y + 5.0, k_panel * share, 3.0}, k_accent);
     y += 27.0;
   };
-  draw_row("kinetic", kinetic);
-  draw_row("potential", potential);
-  draw_row("sum", kinetic + potential);
+  draw_row("kinetic", energy.kinetic, 0.0);
+  draw_row("potential", energy.potential, energies.low);
+  draw_row("sum", energy.kinetic + energy.potential, energies.low);
+  if (created > 0.0) {
+    canvas.draw_text({left, y}, "from nothing", {k_text, k_slip_left});
+    canvas.draw_text({left + k_panel, y}, energy_text(created, energies.largest()),
+                     {k_text, k_slip_left, Align::right});
+  }
 }
 
-Animation::Animation(const drop::Record& record, int width, int height, double speed, int max_frames) {
-  check_record(record);
-  parts_ = std::make_unique<Parts>(record, width, height, speed, max_frames);
-}
+Animation::Animation(const Trajectory& trajectory, int width, int height, double speed, int max_frames)
+    : parts_(std::make_unique<Parts>(trajectory, width, height, speed, max_frames)) {}
 
 Animation::~Animation() = default;
 
 int Animation::frames() const { return parts_->frames; }
 
 std::vector<std::uint32_t> Animation::draw(int i) {
-  const int column = parts_->column_of(i);
-  parts_->extend_path(column);
+  const std::size_t sample = parts_->sample_of(i);
+  parts_->extend_paths(sample);
   parts_->canvas.copy_pixels(parts_->background);
-  parts_->collect_impulses(i, column);
-  parts_->draw_motion(i, column);
-  parts_->draw_panel(column);
+  parts_->collect_impulses(i, sample);
+  parts_->draw_motion(i, sample);
+  parts_->draw_panel(sample);
   return parts_->canvas.pixels();
 }
 

@@ -1,11 +1,11 @@
-// A run as a film in real time: which column each picture shows, and the pictures themselves.
+// A run as a film in real time: which sample each picture shows, and the pictures themselves.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "tumble/drop/drop.hpp"
 #include "tumble/output/canvas.hpp"
+#include "tumble/trajectory/trajectory.hpp"
 
 namespace tumble::output {
 
@@ -21,13 +21,13 @@ inline constexpr int k_max_mp4_frames = 30'000;
 // std::invalid_argument if they are more than `max_frames`.
 int count_frames(double motion, double speed, int max_frames);
 
-// Draws the pictures one after the other. Picture i shows the column nearest to the time i * k_frame_time *
-// speed, the last one the last column. Impulses since the picture before appear and fade, so that one step of
+// Draws the pictures one after the other. Picture i shows the sample nearest to the time i * k_frame_time *
+// speed, the last one the last sample. Impulses since the picture before appear and fade, so that one step of
 // contact is seen.
 class Animation {
  public:
-  // The record must outlive the animation.
-  Animation(const drop::Record& record, int width, int height, double speed, int max_frames);
+  // The trajectory must outlive the animation.
+  Animation(const Trajectory& trajectory, int width, int height, double speed, int max_frames);
   ~Animation();
   Animation(const Animation&) = delete;
   Animation& operator=(const Animation&) = delete;

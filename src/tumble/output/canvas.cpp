@@ -94,9 +94,9 @@ void Canvas::fill(const Colour& colour) {
   cairo_paint(context_);
 }
 
-void Canvas::fill_rectangle(const Frame& frame, const Colour& colour) {
+void Canvas::fill_rectangle(const Area& area, const Colour& colour) {
   set_colour(colour);
-  cairo_rectangle(context_, frame.left, frame.top, frame.width, frame.height);
+  cairo_rectangle(context_, area.left, area.top, area.width, area.height);
   cairo_fill(context_);
 }
 
@@ -169,9 +169,9 @@ void Canvas::draw_text(Point at, std::string_view text, const TextStyle& style) 
   cairo_new_path(context_);
 }
 
-void Canvas::clip(const Frame& frame) {
+void Canvas::clip(const Area& area) {
   cairo_save(context_);
-  cairo_rectangle(context_, frame.left, frame.top, frame.width, frame.height);
+  cairo_rectangle(context_, area.left, area.top, area.width, area.height);
   cairo_clip(context_);
 }
 

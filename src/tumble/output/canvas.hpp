@@ -52,7 +52,7 @@ class Canvas {
   ~Canvas();
 
   void fill(const Colour& colour);  // all of it
-  void fill_rectangle(const Frame& frame, const Colour& colour);
+  void fill_rectangle(const Area& area, const Colour& colour);
   void draw_line(Point from, Point to, const Stroke& stroke);
   void draw_polyline(const std::vector<Point>& points, const Stroke& stroke);
   void draw_polygon(const std::vector<Point>& points, const Colour& fill, const Stroke& outline);
@@ -61,8 +61,8 @@ class Canvas {
   void draw_text(Point at, std::string_view text, const TextStyle& style);
   double text_width(std::string_view text, const TextStyle& style);
 
-  // Everything until `unclip` shows only inside the frame.
-  void clip(const Frame& frame);
+  // Everything until `unclip` shows only inside the area.
+  void clip(const Area& area);
   void unclip();
 
   // Replaces all pixels of an image by those of another of the same size.

@@ -1,8 +1,9 @@
 #include "tumble/output/draw.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,22 +12,16 @@
 namespace tumble::output {
 namespace {
 
-constexpr double k_smallest_side = 4.0;    // [px]; a smaller square is a dot of this size
-constexpr double k_hatch_depth = 9.0;      // [px]
-constexpr double k_hatch_step = 9.0;       // [px]
 constexpr double k_tick_spacing_x = 64.0;  // [px], about
 constexpr double k_tick_spacing_y = 42.0;
 
-void draw_ground(Canvas& canvas, const View& view) {
-  const double y = view.to_pixel(0.0, 0.0).y;
-  const Frame& frame = view.frame;
-  if (y < frame.top || y > frame.bottom()) return;
-  canvas.clip({frame.left, y, frame.width, k_hatch_depth});
-  for (double x = frame.left; x < frame.right() + k_hatch_depth; x += k_hatch_step) {
-    canvas.draw_line({x, y}, {x - k_hatch_depth, y + k_hatch_depth}, {k_ground.with_opacity(0.55), 0.9});
-  }
-  canvas.unclip();
-  canvas.draw_line({frame.left, y}, {frame.right(), y}, {k_ground, 1.5});
+// The law of all contacts, if there is one for all.
+std::optional<ContactLaw> only_law(const Scene& scene) {
+  if (scene.materials.empty() || !scene.pairs.empty()) return std::nullopt;
+  const ContactLaw& law = scene.materials[0].law;
+  const bool is_only = std::all_of(scene.materials.begin(), scene.materials.end(),
+                                   [&](const Material& material) { return material.law == law; });
+  return is_only ? std::optional(law) : std::nullopt;
 }
 
 }  // namespace
@@ -41,9 +36,39 @@ Colour colour_of(ContactMode mode) {
   return k_muted;
 }
 
-std::string parameters_text(const drop::Parameters& p) {
-  return fmt::format("l = {:.6g} m,  m = {:.6g} kg,  μ = {:.6g},  ε = {:.6g},  Δt = {:.6g} s{}", p.l, p.m, p.mu, p.eps,
-                     p.dt, p.g == drop::Parameters{}.g ? "" : fmt::format(",  g = {:.6g} m/s²", p.g));
+std::string title_of(const Trajectory& trajectory) {
+  return trajectory.scene.title.empty() ? "A scene" : trajectory.scene.title;
+}
+
+std::size_t sample_at(const Trajectory& trajectory, double time) {
+  const std::vector<double>& times = trajectory.time;
+  const auto next = std::lower_bound(times.begin(), times.end(), time);
+  if (next == times.begin()) return 0;
+  if (next == times.end()) return times.size() - 1;
+  const auto index = static_cast<std::size_t>(next - times.begin());
+  return *next - time < time - *(next - 1) ? index : index - 1;
+}
+
+std::string facts_text(const Trajectory& trajectory) {
+  const Scene& scene = trajectory.scene;
+  std::vector<const Body*> dynamic;
+  for (const Body& body : scene.bodies) {
+    if (body.kind == BodyKind::dynamic) dynamic.push_back(&body);
+  }
+  std::string text = dynamic.size() == 1 ? fmt::format("m = {:.6g} kg,  ", dynamic[0]->mass)
+                                         : fmt::format("{} bodies,  ", dynamic.size());
+  if (const std::optional<ContactLaw> law = only_law(scene)) {
+    text += fmt::format("μ = {:.6g},  ", law->friction);
+    if (law->static_friction != law->friction) text += fmt::format("static {:.6g},  ", law->static_friction);
+    text += fmt::format("ε = {:.6g},  ", law->restitution);
+  }
+  const Vector2 g = scene.gravity;
+  if (g.x != 0.0) {
+    text += fmt::format("g = ({:.6g}, {:.6g}) m/s²,  ", g.x, g.y);
+  } else if (g != Scene{}.gravity) {
+    text += fmt::format("g = {:.6g} m/s²,  ", 0.0 - g.y);
+  }
+  return text + fmt::format("Δt = {:.6g} s", trajectory.step_size);
 }
 
 int decimals_for(double largest, int low) {
@@ -57,96 +82,51 @@ void draw_text_within(Canvas& canvas, double width, Point at, std::string_view t
   canvas.draw_text(at, text, style);
 }
 
-void draw_surroundings(Canvas& canvas, const View& view, double text_size) {
-  const Frame& frame = view.frame;
-  const Axis x_axis = axis_x(view, std::max(2, static_cast<int>(frame.width / k_tick_spacing_x)));
-  const Axis y_axis = axis_y(view, std::max(2, static_cast<int>(frame.height / k_tick_spacing_y)));
+void draw_axes(Canvas& canvas, const View& view, double text_size) {
+  const Area& area = view.area;
+  const Axis x_axis = axis_x(view, std::max(2, static_cast<int>(area.width / k_tick_spacing_x)));
+  const Axis y_axis = axis_y(view, std::max(2, static_cast<int>(area.height / k_tick_spacing_y)));
   const Stroke grid{k_grid, 1.0};
   TextStyle label{text_size, k_muted, Align::centre};
-  for (const Tick& tick : x_axis.ticks) canvas.draw_line({tick.pixel, frame.top}, {tick.pixel, frame.bottom()}, grid);
-  for (const Tick& tick : y_axis.ticks) canvas.draw_line({frame.left, tick.pixel}, {frame.right(), tick.pixel}, grid);
+  for (const Tick& tick : x_axis.ticks) canvas.draw_line({tick.pixel, area.top}, {tick.pixel, area.bottom()}, grid);
+  for (const Tick& tick : y_axis.ticks) canvas.draw_line({area.left, tick.pixel}, {area.right(), tick.pixel}, grid);
 
-  const double baseline = frame.bottom() + 1.5 * text_size;
+  const double baseline = area.bottom() + 1.5 * text_size;
   for (const Tick& tick : x_axis.ticks) canvas.draw_text({tick.pixel, baseline}, tick.label, label);
-  canvas.draw_text({frame.left + 0.5 * frame.width, baseline + 1.5 * text_size}, fmt::format("x [{}]", x_axis.unit),
+  canvas.draw_text({area.left + 0.5 * area.width, baseline + 1.5 * text_size}, fmt::format("x [{}]", x_axis.unit),
                    label);
   label.align = Align::right;
   for (const Tick& tick : y_axis.ticks) {
-    canvas.draw_text({frame.left - 0.6 * text_size, tick.pixel + 0.36 * text_size}, tick.label, label);
+    canvas.draw_text({area.left - 0.6 * text_size, tick.pixel + 0.36 * text_size}, tick.label, label);
   }
   label.align = Align::left;
-  canvas.draw_text({frame.left - 2.6 * text_size, frame.top - 0.8 * text_size}, fmt::format("y [{}]", y_axis.unit),
+  canvas.draw_text({area.left - 2.6 * text_size, area.top - 0.8 * text_size}, fmt::format("y [{}]", y_axis.unit),
                    label);
-  if (view.has_ground) draw_ground(canvas, view);
-}
-
-void draw_square(Canvas& canvas, const View& view, const Vector3& q, const drop::Parameters& parameters,
-                 const SquareStyle& style) {
-  const Point centre = view.to_pixel(q[0], q[1]);
-  if (view.side < k_smallest_side) {
-    canvas.draw_disc(centre, 0.5 * k_smallest_side, style.outline.colour);
-    return;
-  }
-  // The corners of a unit square at the origin: exact however far away the real one is.
-  drop::Parameters unit = parameters;
-  unit.l = 1.0;
-  unit.m = 1.0;
-  std::vector<Point> corners;
-  for (const auto& [x, y] : corner_positions({0.0, 0.0, q[2]}, unit)) {
-    corners.push_back({centre.x + x * view.side, centre.y - y * view.side});
-  }
-  canvas.draw_polygon(corners, style.fill, style.outline);
-  constexpr double k_mark_place = 0.56;  // from the centre to the corner
-  const Point mark{centre.x + k_mark_place * (corners[0].x - centre.x),
-                   centre.y + k_mark_place * (corners[0].y - centre.y)};
-  canvas.draw_disc(mark, 0.085 * view.side, style.mark);
-}
-
-Point contact_pixel(const View& view, const drop::Record& record, int column) {
-  const Vector3 q = record.trajectory.q_at(column);
-  const auto corner = static_cast<std::size_t>(record.steps[static_cast<std::size_t>(column)].corner);
-  drop::Parameters unit = record.parameters;
-  unit.l = 1.0;
-  unit.m = 1.0;
-  const auto [x, y] = corner_positions({0.0, 0.0, q[2]}, unit)[corner];
-  const Point centre = view.to_pixel(q[0], q[1]);
-  return {centre.x + x * view.side, centre.y - y * view.side};
 }
 
 void draw_impulse(Canvas& canvas, Point tail, const Impulse& impulse, const ArrowStyle& style) {
-  const double along_x = impulse.tangent / impulse.size;
-  const double along_y = -impulse.normal / impulse.size;
+  const Vector2 n = impulse.normal, t = turned_right(n);
+  const Vector2 along = 1.0 / impulse.size * (impulse.along_normal * n + impulse.along_tangent * t);
+  const double x = along.x, y = -along.y;  // in the picture y points down
   const double head = std::min(3.6 * style.width, 0.7 * style.length);
   const double half = 0.42 * head;
-  const Point tip{tail.x + style.length * along_x, tail.y + style.length * along_y};
-  const Point neck{tip.x - head * along_x, tip.y - head * along_y};
-  canvas.draw_line(tail, {neck.x + 0.2 * head * along_x, neck.y + 0.2 * head * along_y}, {style.colour, style.width});
-  canvas.draw_polygon(
-      {tip, {neck.x - half * along_y, neck.y + half * along_x}, {neck.x + half * along_y, neck.y - half * along_x}},
-      style.colour, {style.colour, 0.0});
+  const Point tip{tail.x + style.length * x, tail.y + style.length * y};
+  const Point neck{tip.x - head * x, tip.y - head * y};
+  canvas.draw_line(tail, {neck.x + 0.2 * head * x, neck.y + 0.2 * head * y}, {style.colour, style.width});
+  canvas.draw_polygon({tip, {neck.x - half * y, neck.y + half * x}, {neck.x + half * y, neck.y - half * x}},
+                      style.colour, {style.colour, 0.0});
 }
 
-void draw_cone(Canvas& canvas, Point apex, double mu, double length, double opacity) {
-  const double along_y = 1.0 / std::hypot(1.0, mu);
-  const double along_x = std::min(1.0, mu * along_y);  // mu may be so large that the product rounds above 1
-  const Point left{apex.x - length * along_x, apex.y - length * along_y};
-  const Point right{apex.x + length * along_x, apex.y - length * along_y};
+void draw_cone(Canvas& canvas, Point apex, Vector2 normal, double friction, double length, double opacity) {
+  const double along_n = 1.0 / std::hypot(1.0, friction);
+  const double along_t = std::min(1.0, friction * along_n);  // friction may be so large that the product rounds above 1
+  const auto edge = [&](double side) {
+    const Vector2 end = length * (along_n * normal + side * along_t * turned_right(normal));
+    return Point{apex.x + end.x, apex.y - end.y};
+  };
+  const Point left = edge(-1.0), right = edge(1.0);
   canvas.draw_polygon({apex, left, right}, k_muted.with_opacity(0.10 * opacity), {k_muted, 0.0});
   canvas.draw_polyline({left, apex, right}, {k_muted.with_opacity(0.45 * opacity), 0.8});
-}
-
-void draw_path(Canvas& canvas, const View& view, const drop::Record& record, int first, int last, const Stroke& style) {
-  constexpr double k_closest = 0.3;  // [px]
-  std::vector<Point> points;
-  for (int k = first; k <= last; ++k) {
-    const Vector3 q = record.trajectory.q_at(k);
-    const Point point = view.to_pixel(q[0], q[1]);
-    if (points.empty() || std::abs(point.x - points.back().x) > k_closest ||
-        std::abs(point.y - points.back().y) > k_closest) {
-      points.push_back(point);
-    }
-  }
-  canvas.draw_polyline(points, style);
 }
 
 }  // namespace tumble::output

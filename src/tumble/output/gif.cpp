@@ -14,14 +14,16 @@
 
 #include "tumble/output/animation.hpp"
 #include "tumble/output/draw.hpp"
+#include "tumble/output/draw_bodies.hpp"
 
 namespace tumble::output {
 namespace {
 
-constexpr int k_colour_bits = 6;  // fewer colours pack better; 64 hold all ramps of the pictures
-constexpr int k_colours = 1 << k_colour_bits;
-constexpr std::uint8_t k_transparent = k_colours - 1;  // stands for "as in the picture before"
-constexpr int k_delay = 2;                             // [1/100 s], k_frame_time
+// Fewer colours pack better: 64 hold all ramps of pictures with bodies of one kind. The last one stands for "as in the
+// picture before".
+constexpr std::size_t k_few_colours = 64;
+constexpr std::size_t k_most_colours = 256;
+constexpr int k_delay = 2;  // [1/100 s], k_frame_time
 
 // ---- Colours ----
 
@@ -30,39 +32,62 @@ std::uint32_t packed(const Colour& colour) {
   return byte(colour.red) << 16 | byte(colour.green) << 8 | byte(colour.blue);
 }
 
+using Palette = std::vector<std::uint32_t>;  // a power of two of colours
+
+std::uint8_t transparent(const Palette& palette) { return static_cast<std::uint8_t>(palette.size() - 1); }
+
+// The colours of the bodies that move, each once.
+std::vector<BodyColours> kinds_of(const Scene& scene) {
+  std::vector<BodyColours> kinds;
+  const std::vector<BodyColours> colours = body_colours(scene);
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const bool is_known = std::any_of(kinds.begin(), kinds.end(), [&](const BodyColours& other) {
+      return packed(other.fill) == packed(colours[i].fill);
+    });
+    if (!is_known && scene.bodies[i].kind != BodyKind::fixed) kinds.push_back(colours[i]);
+  }
+  return kinds;
+}
+
 // The colours of the pictures and their way to the paper, or to what else they meet, where edges are
 // smoothed.
-std::vector<std::uint32_t> make_palette() {
-  std::vector<std::uint32_t> palette = {packed(k_paper)};
+Palette make_palette(const Scene& scene) {
+  Palette palette = {packed(k_paper)};
   const auto add_ramp = [&](const Colour& from, const Colour& to, int steps) {
     for (int i = 1; i <= steps; ++i) palette.push_back(packed(mix(from, to, static_cast<double>(i) / steps)));
   };
-  const Colour body_fill{0.62, 0.73, 0.85};
   add_ramp(k_paper, k_ink, 8);
   add_ramp(k_paper, k_muted, 6);
   add_ramp(k_paper, k_ground, 3);
   palette.push_back(packed(k_grid));
   palette.push_back(packed(mix(k_paper, k_grid, 0.5)));
   palette.push_back(packed(mix(k_paper, k_muted, 0.1)));
-  add_ramp(k_paper, k_body, 8);
-  palette.push_back(packed(body_fill));
-  palette.push_back(packed(mix(body_fill, k_paper, 0.5)));
-  add_ramp(body_fill, k_body, 4);
+  palette.push_back(packed(k_accent));
+  palette.push_back(packed(k_fixed_fill));
+  const std::vector<BodyColours> kinds = kinds_of(scene);
+  for (const BodyColours& kind : kinds) {
+    add_ramp(k_paper, kind.deep, 8);
+    palette.push_back(packed(kind.fill));
+    palette.push_back(packed(mix(kind.fill, k_paper, 0.5)));
+    add_ramp(kind.fill, kind.deep, 4);
+  }
   for (const Colour& colour : {k_stick, k_slip_left, k_slip_right}) {
     add_ramp(k_paper, colour, 7);
-    palette.push_back(packed(mix(body_fill, colour, 0.5)));
+    for (const BodyColours& kind : kinds) palette.push_back(packed(mix(kind.fill, colour, 0.5)));
   }
-  palette.resize(k_colours, packed(k_paper));
+  std::size_t size = k_few_colours;
+  while (size <= palette.size()) size *= 2;
+  palette.resize(std::min(size, k_most_colours), packed(k_paper));
   return palette;
 }
 
 // The nearest colour of the palette, looked up by the upper 5 bits of red, green and blue.
 class Quantiser {
  public:
-  explicit Quantiser(const std::vector<std::uint32_t>& palette) : nearest_(1 << 15) {
+  explicit Quantiser(const Palette& palette) : nearest_(1 << 15) {
     for (std::uint32_t key = 0; key < nearest_.size(); ++key) {
       int best = 1 << 30;
-      for (std::size_t i = 0; i < k_transparent; ++i) {
+      for (std::size_t i = 0; i + 1 < palette.size(); ++i) {
         int distance = 0;
         for (const int shift : {0, 5, 10}) {
           // 5 bits to 8: the upper bits again below, so that 31 becomes 255.
@@ -102,7 +127,7 @@ struct Patch {
 
 // The rectangle in which `now` differs, unchanged pixels transparent; nothing if they are equal.
 std::optional<Patch> changed_part(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& now,
-                                  int width) {
+                                  int width, std::uint8_t transparent) {
   const int height = static_cast<int>(now.size()) / width;
   int left = width;
   int right = -1;
@@ -126,7 +151,7 @@ std::optional<Patch> changed_part(const std::vector<std::uint8_t>& before, const
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
       const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-      patch.indices.push_back(now[at] == before[at] ? k_transparent : now[at]);
+      patch.indices.push_back(now[at] == before[at] ? transparent : now[at]);
     }
   }
   return patch;
@@ -146,20 +171,21 @@ int append(GifFileType* file, const GifByteType* data, int length) {
 
 class GifWriter {
  public:
-  GifWriter(int width, int height, const std::vector<std::uint32_t>& palette) {
+  GifWriter(int width, int height, const Palette& palette) : transparent_(transparent(palette)) {
     int error = 0;
     file_ = EGifOpen(bytes_.get(), append, &error);
     if (file_ == nullptr) fail(error);
     EGifSetGifVersion(file_, true);
-    std::array<GifColorType, k_colours> colours{};
-    for (std::size_t i = 0; i < k_colours; ++i) {
-      colours[i] = {static_cast<GifByteType>(palette[i] >> 16), static_cast<GifByteType>(palette[i] >> 8 & 255u),
-                    static_cast<GifByteType>(palette[i] & 255u)};
+    std::vector<GifColorType> colours;
+    for (const std::uint32_t colour : palette) {
+      colours.push_back({static_cast<GifByteType>(colour >> 16), static_cast<GifByteType>(colour >> 8 & 255u),
+                         static_cast<GifByteType>(colour & 255u)});
     }
-    const std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)> map(GifMakeMapObject(k_colours, colours.data()),
+    const auto count = static_cast<int>(colours.size());
+    const std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)> map(GifMakeMapObject(count, colours.data()),
                                                                          GifFreeMapObject);
     if (!map) throw std::bad_alloc();
-    require(EGifPutScreenDesc(file_, width, height, k_colour_bits, 0, map.get()));
+    require(EGifPutScreenDesc(file_, width, height, map->BitsPerPixel, 0, map.get()));
     // Repeats for ever: the block that Netscape introduced and all viewers know.
     constexpr std::array<GifByteType, 3> k_for_ever = {1, 0, 0};
     require(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE));
@@ -177,7 +203,7 @@ class GifWriter {
 
   // `delay` in 1/100 s.
   void add(Patch& patch, int delay) {
-    const GraphicsControlBlock control{DISPOSE_DO_NOT, false, delay, k_transparent};
+    const GraphicsControlBlock control{DISPOSE_DO_NOT, false, delay, transparent_};
     std::array<GifByteType, 4> extension{};
     const std::size_t size = EGifGCBToExtension(&control, extension.data());
     require(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, static_cast<int>(size), extension.data()));
@@ -207,13 +233,14 @@ class GifWriter {
 
   std::unique_ptr<std::string> bytes_ = std::make_unique<std::string>();  // at a fixed address for giflib
   GifFileType* file_ = nullptr;
+  std::uint8_t transparent_;
 };
 
 }  // namespace
 
-std::string to_gif(const drop::Record& record, int width, int height, double speed) {
-  Animation animation(record, width, height, speed, k_max_gif_frames);
-  const std::vector<std::uint32_t> palette = make_palette();
+std::string to_gif(const Trajectory& trajectory, int width, int height, double speed) {
+  Animation animation(trajectory, width, height, speed, k_max_gif_frames);
+  const Palette palette = make_palette(trajectory.scene);
   const Quantiser quantiser(palette);
   GifWriter writer(width, height, palette);
 
@@ -225,7 +252,7 @@ std::string to_gif(const drop::Record& record, int width, int height, double spe
   int delay = k_delay;
   for (int i = 1; i < animation.frames(); ++i) {
     quantiser.apply(animation.draw(i), now);
-    std::optional<Patch> patch = changed_part(before, now, width);
+    std::optional<Patch> patch = changed_part(before, now, width, transparent(palette));
     if (!patch) {
       delay += k_delay;
       continue;

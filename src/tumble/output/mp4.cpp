@@ -219,9 +219,9 @@ void check_ffmpeg() {
       "an .mp4 needs the program ffmpeg, which is not on the PATH: install Debian's package ffmpeg");
 }
 
-void write_mp4(const drop::Record& record, const std::filesystem::path& path, int width, int height, double speed) {
+void write_mp4(const Trajectory& trajectory, const std::filesystem::path& path, int width, int height, double speed) {
   check_ffmpeg();
-  Animation animation(record, width, height, speed, k_max_mp4_frames);
+  Animation animation(trajectory, width, height, speed, k_max_mp4_frames);
   const std::string rate = fmt::format("{}", std::lround(1.0 / k_frame_time));
   // "file:" keeps ffmpeg from reading a name such as "pipe:1" or "-y" as something else.
   Encoder encoder({"-nostdin",

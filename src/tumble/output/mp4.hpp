@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "tumble/drop/drop.hpp"
+#include "tumble/trajectory/trajectory.hpp"
 
 namespace tumble::output {
 
@@ -13,7 +13,7 @@ void check_ffmpeg();
 // 50 pictures a second, H.264, the last picture stays for 0.8 s. Writes over the file `path`, which must
 // exist; width and height must be even. Throws std::invalid_argument as to_gif, for runs of more than 10 min,
 // and std::runtime_error with the last words of ffmpeg if that fails.
-void write_mp4(const drop::Record& record, const std::filesystem::path& path, int width, int height,
+void write_mp4(const Trajectory& trajectory, const std::filesystem::path& path, int width, int height,
                double speed = 1.0);
 
 }  // namespace tumble::output

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "tumble/output/draw.hpp"
-#include "tumble/output/record_fields.hpp"
+#include "tumble/output/draw_bodies.hpp"
 
 namespace tumble::output {
 namespace {
@@ -28,10 +28,15 @@ constexpr double k_default_height = 714.0;
 constexpr Margins k_margins = {22.0, 22.0, 48.0};
 constexpr double k_png_scale = 1.6;
 
-constexpr int k_most_poses = 30;
+constexpr int k_most_poses = 30;   // of one body
+constexpr int k_most_drawn = 150;  // poses of all bodies
+constexpr int k_fewest_poses = 4;  // fewer are left out
+constexpr int k_most_paths = 40;
 constexpr std::size_t k_most_impacts = 8;   // with a number and a line in the table
 constexpr double k_smallest_impact = 0.08;  // of the largest impulse
 constexpr std::size_t k_most_arrows = 60;
+// Of a crowd the contacts of the end are shown in place of impacts on the way.
+constexpr std::size_t k_most_last_arrows = 2000;
 constexpr double k_smallest_arrow = 0.02;
 constexpr double k_longest_arrow = 110.0;
 constexpr double k_text = 12.5;
@@ -42,11 +47,10 @@ struct Sizes {
   double scale;  // [px] per unit of the design
 };
 
-Sizes choose_sizes(const Box& box, int width, int height, double default_scale) {
+Sizes choose_sizes(const Sight& sight, int width, int height, double default_scale) {
+  const Vector2 size = sight.box.high - sight.box.low;
   double plot_height = k_default_plot_height;
-  double plot_width =
-      (plot_height - k_margins.top - k_margins.bottom) * (box.x_high - box.x_low) / (box.y_high - box.y_low) +
-      2.0 * k_margins.side;
+  double plot_width = (plot_height - k_margins.top - k_margins.bottom) * size.x / size.y + 2.0 * k_margins.side;
   if (plot_width > k_widest_plot) {
     plot_height = std::max(k_lowest_plot, plot_height * k_widest_plot / plot_width);
     plot_width = k_widest_plot;
@@ -63,134 +67,176 @@ Sizes choose_sizes(const Box& box, int width, int height, double default_scale) 
   return {width, height, std::min(width / k_default_width, height / k_default_height)};
 }
 
-struct Scene {
-  const drop::Record& record;
+// What the picture shows.
+struct Show {
+  Show(const Trajectory& the_trajectory, const View& the_view);
+
+  double duration() const { return trajectory.time.back(); }
+  std::size_t last() const { return trajectory.time.size() - 1; }
+
+  const Trajectory& trajectory;
   View view;
-  double interval;  // between poses [s]
-  double largest;   // impulse [N s]
+  BodyDrawing bodies;
+  double arrow_room;             // [px]
+  double interval;               // between poses [s]; 0: none but the first and the last
+  std::vector<Impulse> touches;  // of the whole run, of a crowd those of the last step
+  double largest;                // of these [N s]
   std::vector<Impulse> arrows;
   std::vector<Impulse> impacts;  // those with a number
 };
 
-double choose_interval(const drop::Record& record) {
-  const double duration = (record.trajectory.columns - 1) * record.parameters.dt;
-  if (!(duration > 0.0 && std::isfinite(duration))) return record.parameters.dt;
-  return std::max(round_up_nicely(duration / k_most_poses), record.parameters.dt);
+double choose_interval(const Trajectory& trajectory, std::size_t num_moving) {
+  const double duration = trajectory.time.back();
+  const int poses = std::min(k_most_poses, k_most_drawn / static_cast<int>(std::max<std::size_t>(num_moving, 1)));
+  if (!(duration > 0.0 && std::isfinite(duration)) || poses < k_fewest_poses) return 0.0;
+  return std::max(round_up_nicely(duration / poses), trajectory.time[1]);
 }
 
-Scene make_scene(const drop::Record& record, const View& view) {
-  const std::vector<Impulse> impulses = contact_impulses(record);
-  const double largest = largest_size(impulses);
-  return {record,
-          view,
-          choose_interval(record),
-          largest,
-          keep_largest(impulses, k_most_arrows, k_smallest_arrow * largest),
-          keep_largest(impulses, k_most_impacts, k_smallest_impact * largest)};
+Show::Show(const Trajectory& the_trajectory, const View& the_view)
+    : trajectory(the_trajectory),
+      view(the_view),
+      bodies(trajectory.scene, view),
+      arrow_room(bodies.arrow_room(k_longest_arrow)),
+      interval(choose_interval(trajectory, bodies.moving().size())),
+      touches(bodies.is_crowd() ? impulses_at_end(trajectory) : largest_of_each_touch(trajectory)),
+      largest(largest_size(touches)) {
+  const std::size_t most = bodies.is_crowd() ? k_most_last_arrows : k_most_arrows;
+  arrows = keep_largest(touches, most, k_smallest_arrow * largest);
+  if (!bodies.is_crowd()) impacts = keep_largest(touches, k_most_impacts, k_smallest_impact * largest);
+}
+
+double start_of(const Impulse& impulse, const Show& show) {
+  return static_cast<double>(impulse.step - 1) * show.trajectory.step_size;
 }
 
 // ---- The plot ----
 
-constexpr SquareStyle k_start_style = {k_paper.with_opacity(0.6), {k_body, 1.4, 5.0, 3.5}, k_body};
-constexpr SquareStyle k_end_style = {{0.62, 0.73, 0.85}, {k_body, 1.9}, k_body};
+// Of one kind of bodies at the start, on the way and at the end.
+BodyStyle start_style(const BodyColours& c) { return {k_paper.with_opacity(0.6), {c.deep, 1.4, 5.0, 3.5}, c.deep}; }
+BodyStyle end_style(const BodyColours& c) { return {c.fill, {c.deep, 1.9}, c.deep}; }
 
-Colour colour_at(double share) { return mix(k_body_early, k_body, share); }
+Colour colour_at(const BodyColours& c, double share) { return mix(mix(k_paper, c.deep, 0.45), c.deep, share); }
 
-void draw_pose(Canvas& canvas, const Scene& scene, int column, const SquareStyle& style) {
-  draw_square(canvas, scene.view, scene.record.trajectory.q_at(column), scene.record.parameters, style);
+BodyStyle pose_style(const Colour& colour) {
+  return {colour.with_opacity(0.10), {colour.with_opacity(0.75), 1.0}, colour.with_opacity(0.75)};
+}
+
+const Pose& pose_at(const Show& show, std::size_t body, std::size_t sample) {
+  return show.trajectory.bodies(sample)[body].pose;
 }
 
 // Poses that fall on one another are drawn once: many thin layers would make one thick one.
-void draw_poses(Canvas& canvas, const Scene& scene) {
-  const int last = scene.record.trajectory.columns - 1;
-  std::optional<Vector3> drawn;
-  for (int i = 0; i <= k_most_poses + 1; ++i) {
-    const double column = std::round(i * scene.interval / scene.record.parameters.dt);
-    if (column >= last) break;
-    const Vector3 q = scene.record.trajectory.q_at(static_cast<int>(column));
-    if (drawn && std::hypot(q[0] - (*drawn)[0], q[1] - (*drawn)[1]) * scene.view.scale < 2.0 &&
-        std::abs(q[2] - (*drawn)[2]) < 0.03) {
-      continue;
+void draw_poses(Canvas& canvas, const Show& show) {
+  if (show.interval == 0.0) return;
+  for (const std::size_t body : show.bodies.moving()) {
+    std::optional<Pose> drawn;
+    for (int i = 0; i <= k_most_poses + 1; ++i) {
+      const std::size_t sample = sample_at(show.trajectory, i * show.interval);
+      if (sample >= show.last()) break;
+      const Pose& pose = pose_at(show, body, sample);
+      if (drawn && length(pose.position - drawn->position) * show.view.scale < 2.0 &&
+          std::abs(pose.angle - drawn->angle) < 0.03) {
+        continue;
+      }
+      drawn = pose;
+      const double share = show.duration() > 0.0 ? show.trajectory.time[sample] / show.duration() : 0.0;
+      show.bodies.draw(canvas, body, pose, pose_style(colour_at(show.bodies.colours(body), share)));
     }
-    drawn = q;
-    const Colour colour = colour_at(last > 0 ? column / last : 0.0);
-    draw_pose(canvas, scene, static_cast<int>(column),
-              {colour.with_opacity(0.10), {colour.with_opacity(0.75), 1.0}, colour.with_opacity(0.75)});
   }
 }
 
-void draw_first_and_last(Canvas& canvas, const Scene& scene) {
-  const int last = scene.record.trajectory.columns - 1;
-  if (last > 0) draw_pose(canvas, scene, 0, k_start_style);
-  draw_pose(canvas, scene, last, k_end_style);
-}
-
-double arrow_length(const Scene& scene, const Impulse& impulse) {
-  const double room = std::min(k_longest_arrow, 0.3 * scene.view.frame.height);
-  return scene.largest > 0.0 ? room * impulse.size / scene.largest : 0.0;
-}
-
-void draw_impacts(Canvas& canvas, const Scene& scene) {
-  const drop::Record& record = scene.record;
-  for (const Impulse& impact : scene.impacts) {
-    draw_cone(canvas, contact_pixel(scene.view, record, impact.column), record.parameters.mu,
-              1.18 * arrow_length(scene, impact), 1.0);
+void draw_first_and_last(Canvas& canvas, const Show& show) {
+  for (const std::size_t body : show.bodies.moving()) {
+    if (show.last() > 0) show.bodies.draw(canvas, body, pose_at(show, body, 0), start_style(show.bodies.colours(body)));
   }
-  for (const Impulse& impulse : scene.arrows) {
-    const Point contact = contact_pixel(scene.view, record, impulse.column);
+  for (const std::size_t body : show.bodies.moving()) {
+    show.bodies.draw(canvas, body, pose_at(show, body, show.last()), end_style(show.bodies.colours(body)));
+  }
+}
+
+// The moving bodies of the numbered impacts.
+void draw_impact_poses(Canvas& canvas, const Show& show) {
+  for (const Impulse& impact : show.impacts) {
+    const Colour colour = colour_of(impact.mode);
+    const std::size_t sample = sample_at(show.trajectory, start_of(impact, show));
+    for (const int index : {impact.contact.body_a, impact.contact.body_b}) {
+      const auto body = static_cast<std::size_t>(index);
+      if (show.trajectory.scene.bodies[body].kind == BodyKind::fixed) continue;
+      show.bodies.draw(canvas, body, pose_at(show, body, sample),
+                       {colour.with_opacity(0.07), {colour.with_opacity(0.9), 1.5}, colour.with_opacity(0.6)});
+    }
+  }
+}
+
+void draw_paths(Canvas& canvas, const Show& show) {
+  if (show.bodies.moving().size() > k_most_paths) return;
+  for (const std::size_t body : show.bodies.moving()) {
+    const Colour colour = show.bodies.moving().size() == 1 ? k_ink : show.bodies.colours(body).deep;
+    draw_path(canvas, show.view, show.trajectory, body, 0, show.last(), {colour.with_opacity(0.7), 1.2, 1.0, 3.2});
+  }
+}
+
+double arrow_length(const Show& show, const Impulse& impulse) {
+  return show.largest > 0.0 ? show.arrow_room * impulse.size / show.largest : 0.0;
+}
+
+void draw_impacts(Canvas& canvas, const Show& show) {
+  constexpr double k_strong_cones = 3.0;
+  const double opacity = std::min(1.0, k_strong_cones / static_cast<double>(show.impacts.size()));
+  for (const Impulse& impact : show.impacts) {
+    draw_cone(canvas, show.view.to_pixel(impact.place), impact.normal, impact.friction,
+              1.18 * arrow_length(show, impact), opacity);
+  }
+  for (const Impulse& impulse : show.arrows) {
+    const Point contact = show.view.to_pixel(impulse.place);
     const Colour colour = colour_of(impulse.mode);
-    const double length = arrow_length(scene, impulse);
+    const double length = arrow_length(show, impulse);
     draw_impulse(canvas, contact, impulse, {length, length < 12.0 ? 1.3 : 2.4, colour});
     if (length >= 12.0) canvas.draw_disc(contact, 2.6, colour);
   }
 }
 
-// The numbers stand in a row under the ground, moved aside where two impacts are too close for both.
-void draw_numbers(Canvas& canvas, const Scene& scene) {
+// A number stands behind the surface that was hit, moved aside where another one has the place.
+void draw_numbers(Canvas& canvas, const Show& show) {
   constexpr double k_radius = 9.0;
   constexpr double k_pitch = 2.0 * k_radius + 3.0;
-  std::vector<std::pair<double, std::size_t>> places;
-  double lowest = scene.view.has_ground ? scene.view.to_pixel(0.0, 0.0).y : scene.view.frame.top;
-  for (std::size_t i = 0; i < scene.impacts.size(); ++i) {
-    const Point contact = contact_pixel(scene.view, scene.record, scene.impacts[i].column);
-    places.emplace_back(contact.x, i);
-    lowest = std::max(lowest, contact.y);
-  }
-  std::sort(places.begin(), places.end());
-  double least = scene.view.frame.left + k_radius;
-  for (auto& [x, i] : places) {
-    x = std::max(x, least);
-    least = x + k_pitch;
-  }
-  double most = scene.view.frame.right() - k_radius - 1.0;
-  for (auto place = places.rbegin(); place != places.rend(); ++place) {
-    place->first = std::min(place->first, most);
-    most = place->first - k_pitch;
-  }
-  for (const auto& [x, i] : places) {
-    const Point centre{x, lowest + 24.0};
-    const Colour colour = colour_of(scene.impacts[i].mode);
+  constexpr double k_distance = 24.0;
+  const Area& area = show.view.area;
+  std::vector<Point> taken;
+  for (std::size_t i = 0; i < show.impacts.size(); ++i) {
+    const Impulse& impact = show.impacts[i];
+    const Point contact = show.view.to_pixel(impact.place);
+    const Vector2 n = impact.normal, t = turned_right(n);
+    Point centre{};
+    for (int tries = 0; tries < 2 * static_cast<int>(k_most_impacts); ++tries) {  // 0, 1, -1, 2, -2, ... places aside
+      const double aside = k_pitch * ((tries + 1) / 2) * (tries % 2 == 0 ? -1.0 : 1.0);
+      centre = {contact.x - k_distance * n.x + aside * t.x, contact.y + k_distance * n.y - aside * t.y};
+      centre.x = std::clamp(centre.x, area.left + k_radius, area.right() - k_radius - 1.0);
+      centre.y = std::clamp(centre.y, area.top + k_radius, area.bottom() - k_radius - 1.0);
+      const bool is_free = std::none_of(taken.begin(), taken.end(), [&](Point other) {
+        return std::hypot(other.x - centre.x, other.y - centre.y) < k_pitch - 1.0;
+      });
+      if (is_free) break;
+    }
+    taken.push_back(centre);
+    const Colour colour = colour_of(impact.mode);
     canvas.draw_disc(centre, k_radius, k_paper);
     canvas.draw_circle(centre, k_radius, {colour, 1.4});
     canvas.draw_text({centre.x, centre.y + 4.1}, fmt::format("{}", i + 1), {11.5, colour, Align::centre, true});
   }
 }
 
-void draw_plot(Canvas& canvas, const Scene& scene) {
-  const drop::Record& record = scene.record;
-  draw_surroundings(canvas, scene.view, 12.0);
-  canvas.clip(scene.view.frame);
-  draw_poses(canvas, scene);
-  const int last = record.trajectory.columns - 1;
-  for (const Impulse& impact : scene.impacts) {
-    const Colour colour = colour_of(impact.mode);
-    draw_pose(canvas, scene, impact.column,
-              {colour.with_opacity(0.07), {colour.with_opacity(0.9), 1.5}, colour.with_opacity(0.6)});
-  }
-  draw_first_and_last(canvas, scene);
-  draw_path(canvas, scene.view, record, 0, last, {k_ink.with_opacity(0.7), 1.2, 1.0, 3.2});
-  draw_impacts(canvas, scene);
-  draw_numbers(canvas, scene);
+void draw_plot(Canvas& canvas, const Show& show) {
+  draw_axes(canvas, show.view, 12.0);
+  canvas.clip(show.view.area);
+  show.bodies.draw_fixed(canvas);
+  draw_poses(canvas, show);
+  draw_impact_poses(canvas, show);
+  draw_first_and_last(canvas, show);
+  show.bodies.draw_conveyors(canvas, show.trajectory.bodies(show.last()), 0.0);
+  draw_paths(canvas, show);
+  draw_impacts(canvas, show);
+  draw_numbers(canvas, show);
   canvas.unclip();
 }
 
@@ -198,20 +244,20 @@ void draw_plot(Canvas& canvas, const Scene& scene) {
 
 class Panel {
  public:
-  Panel(Canvas& canvas, const Frame& frame) : canvas_(canvas), frame_(frame), y_(frame.top) {}
+  Panel(Canvas& canvas, const Area& area) : canvas_(canvas), area_(area), y_(area.top) {}
 
-  bool has_room(double height) const { return y_ + height <= frame_.bottom(); }
+  bool has_room(double height) const { return y_ + height <= area_.bottom(); }
 
   void heading(std::string_view text) {
     y_ += 14.0;
-    canvas_.draw_text({frame_.left, y_}, text, {k_text, k_ink, Align::left, true});
+    canvas_.draw_text({area_.left, y_}, text, {k_text, k_ink, Align::left, true});
     y_ += 9.0;
   }
 
   // Middle of a new line of the height; what stands left of `text` is drawn by the caller around it.
   Point line(double height, std::string_view text) {
-    const Point middle{frame_.left + 18.0, y_ + 0.5 * height};
-    canvas_.draw_text({frame_.left + 46.0, middle.y + 0.36 * k_text}, text, {k_text, k_muted});
+    const Point middle{area_.left + 18.0, y_ + 0.5 * height};
+    canvas_.draw_text({area_.left + 46.0, middle.y + 0.36 * k_text}, text, {k_text, k_muted});
     y_ += height;
     return middle;
   }
@@ -220,20 +266,20 @@ class Panel {
   // right.
   void cells(const std::vector<std::pair<double, std::string>>& texts, const Colour& colour, Align align) {
     y_ += 17.5;
-    for (const auto& [x, text] : texts) canvas_.draw_text({frame_.left + x, y_}, text, {k_text - 0.5, colour, align});
+    for (const auto& [x, text] : texts) canvas_.draw_text({area_.left + x, y_}, text, {k_text - 0.5, colour, align});
   }
 
   double baseline() const { return y_; }
-  double left() const { return frame_.left; }
+  double left() const { return area_.left; }
   void skip(double height) { y_ += height; }
 
  private:
   Canvas& canvas_;
-  Frame frame_;
+  Area area_;
   double y_;
 };
 
-void draw_square_sample(Canvas& canvas, Point middle, const SquareStyle& style) {
+void draw_sample(Canvas& canvas, Point middle, const BodyStyle& style) {
   constexpr double h = 8.0;
   canvas.draw_polygon({{middle.x - h, middle.y - h},
                        {middle.x + h, middle.y - h},
@@ -243,31 +289,44 @@ void draw_square_sample(Canvas& canvas, Point middle, const SquareStyle& style) 
   canvas.draw_disc({middle.x - 0.56 * h, middle.y + 0.56 * h}, 1.7, style.mark);
 }
 
-void draw_pose_legend(Canvas& canvas, Panel& panel, const Scene& scene) {
-  const double duration = (scene.record.trajectory.columns - 1) * scene.record.parameters.dt;
+void draw_pose_legend(Canvas& canvas, Panel& panel, const Show& show) {
+  const BodyColours colours =
+      show.bodies.moving().empty() ? BodyColours{k_grid, k_ground} : show.bodies.colours(show.bodies.moving()[0]);
   panel.heading("Poses");
-  const Colour pose = colour_at(0.4);
-  if (scene.record.trajectory.columns == 1) {
-    draw_square_sample(canvas, panel.line(24.0, "start, t = 0: the only column"), k_end_style);
+  if (show.last() == 0) {
+    draw_sample(canvas, panel.line(24.0, "start, t = 0: the only one"), end_style(colours));
     panel.skip(8.0);
     return;
   }
-  draw_square_sample(canvas, panel.line(24.0, "start, t = 0"), k_start_style);
-  draw_square_sample(canvas, panel.line(24.0, fmt::format("every {:.6g} s, later is darker", scene.interval)),
-                     {pose.with_opacity(0.10), {pose, 1.0}, pose});
-  draw_square_sample(canvas, panel.line(24.0, fmt::format("end, t = {:.6g} s", duration)), k_end_style);
+  draw_sample(canvas, panel.line(24.0, "start, t = 0"), start_style(colours));
+  if (show.interval > 0.0) {
+    draw_sample(canvas, panel.line(24.0, fmt::format("every {:.6g} s, later is darker", show.interval)),
+                pose_style(colour_at(colours, 0.4)));
+  }
+  draw_sample(canvas, panel.line(24.0, fmt::format("end, t = {:.6g} s", show.duration())), end_style(colours));
   panel.skip(8.0);
 }
 
-void draw_impulse_legend(Canvas& canvas, Panel& panel, const Scene& scene) {
-  panel.heading("Contact impulse");
-  if (scene.arrows.empty()) {
-    panel.cells({{0.0, "no contact in this run"}}, k_muted, Align::left);
+// The friction of all numbered impacts, if it is one for all.
+std::optional<double> only_friction(const Show& show) {
+  if (show.impacts.empty()) return std::nullopt;
+  const double friction = show.impacts[0].friction;
+  const bool is_only = std::all_of(show.impacts.begin(), show.impacts.end(),
+                                   [&](const Impulse& impact) { return impact.friction == friction; });
+  return is_only ? std::optional(friction) : std::nullopt;
+}
+
+void draw_impulse_legend(Canvas& canvas, Panel& panel, const Show& show) {
+  panel.heading(show.bodies.is_crowd() ? "Contact impulse in the last step" : "Contact impulse");
+  if (show.arrows.empty()) {
+    panel.cells({{0.0, show.bodies.is_crowd() ? "none" : "none in this run"}}, k_muted, Align::left);
     return;
   }
-  const Impulse sample{0, 0.0, round_down_nicely(0.45 * scene.largest), round_down_nicely(0.45 * scene.largest),
-                       ContactMode::open};
-  const double length = arrow_length(scene, sample);
+  Impulse sample;
+  sample.normal = {-1.0, 0.0};  // its tangent points up, the sample itself to the right
+  sample.size = round_down_nicely(0.45 * show.largest);
+  sample.along_normal = -sample.size;
+  const double length = arrow_length(show, sample);
   panel.skip(6.0);
   const double y = panel.baseline() + 8.0;
   draw_impulse(canvas, {panel.left(), y}, sample, {length, 2.4, k_ink});
@@ -278,30 +337,30 @@ void draw_impulse_legend(Canvas& canvas, Panel& panel, const Scene& scene) {
     const Point middle = panel.line(19.0, to_string(mode));
     canvas.draw_line({middle.x - 12.0, middle.y}, {middle.x + 12.0, middle.y}, {colour_of(mode), 3.0});
   }
-  const Point cone = panel.line(24.0, fmt::format("friction cone, μ = {:.6g}", scene.record.parameters.mu));
-  draw_cone(canvas, {cone.x, cone.y + 9.0}, scene.record.parameters.mu, 18.0, 1.0);
+  if (const std::optional<double> friction = only_friction(show)) {
+    const Point cone = panel.line(24.0, fmt::format("friction cone, μ = {:.6g}", *friction));
+    draw_cone(canvas, {cone.x, cone.y + 9.0}, {0.0, 1.0}, *friction, 18.0, 1.0);
+  }
   panel.skip(8.0);
 }
 
-void draw_impact_table(Canvas& canvas, Panel& panel, const Scene& scene) {
+void draw_impact_table(Canvas& canvas, Panel& panel, const Show& show) {
   constexpr double k_row = 17.5;
-  if (scene.impacts.empty() || !panel.has_room(14.0 + 9.0 + 2.0 * k_row)) return;
-  const std::size_t all = contact_impulses(scene.record).size();
-  const double dt = scene.record.parameters.dt;
-  const double duration = (scene.record.trajectory.columns - 1) * dt;
+  if (show.impacts.empty() || !panel.has_room(14.0 + 9.0 + 2.0 * k_row)) return;
+  const double duration = show.duration();
   const auto time_text = [&](double t) {
     return duration < 1e-2 || duration >= 1e4 ? fmt::format("{:.4g}", t)
                                               : fmt::format("{:.{}f}", t, decimals_for(duration, 2));
   };
-  panel.heading("Impacts");
-  if (scene.impacts.size() < all) {
-    panel.cells({{0.0, fmt::format("the {} largest of {} contact steps", scene.impacts.size(), all)}}, k_muted,
-                Align::left);
+  panel.heading("Contacts");
+  const std::string counted = show.impacts.size() == 1 ? "" : fmt::format("{} ", show.impacts.size());
+  if (show.impacts.size() < show.touches.size()) {
+    panel.cells({{0.0, fmt::format("the {}largest of {}", counted, show.touches.size())}}, k_muted, Align::left);
   }
   panel.cells({{74.0, "t [s]"}, {168.0, "impulse [N s]"}}, k_muted, Align::right);
-  for (std::size_t i = 0; i < scene.impacts.size() && panel.has_room(k_row); ++i) {
-    const Impulse& impact = scene.impacts[i];
-    panel.cells({{74.0, time_text(impact.column * dt)}, {168.0, fmt::format("{:#.3g}", impact.size)}}, k_ink,
+  for (std::size_t i = 0; i < show.impacts.size() && panel.has_room(k_row); ++i) {
+    const Impulse& impact = show.impacts[i];
+    panel.cells({{74.0, time_text(start_of(impact, show))}, {168.0, fmt::format("{:#.3g}", impact.size)}}, k_ink,
                 Align::right);
     const Colour colour = colour_of(impact.mode);
     const double baseline = panel.baseline();
@@ -310,52 +369,52 @@ void draw_impact_table(Canvas& canvas, Panel& panel, const Scene& scene) {
   }
 }
 
-void draw_title(Canvas& canvas, const Scene& scene) {
-  const drop::Record& record = scene.record;
-  const Vector3 q = record.trajectory.q_at(0);
-  const Vector3 v = record.trajectory.v_at(0);
-  canvas.draw_text({k_left, 34.0}, "Drop of a square", {19.0, k_ink, Align::left, true});
-  const double width = scene.view.frame.width + k_gap + k_panel;
-  draw_text_within(canvas, width, {k_left, 57.0}, parameters_text(record.parameters), {k_text, k_muted});
-  draw_text_within(canvas, width, {k_left, 76.0},
-                   fmt::format("start: x = {:.4g} m, y = {:.4g} m, θ = {:.4g} rad,  vx = {:.4g} m/s, vy = "
-                               "{:.4g} m/s, ω = {:.4g} rad/s",
-                               q[0], q[1], q[2], v[0], v[1], v[2]),
-                   {k_text, k_muted});
+// How it starts, or, of several bodies, nothing.
+std::string start_text(const Show& show) {
+  if (show.bodies.moving().size() != 1) return "";
+  const auto& [pose, v] = show.trajectory.bodies(0)[show.bodies.moving()[0]];
+  return fmt::format(
+      "start: x = {:.4g} m, y = {:.4g} m, θ = {:.4g} rad,  vx = {:.4g} m/s, vy = {:.4g} m/s, ω = {:.4g} rad/s",
+      pose.position.x, pose.position.y, pose.angle, v[0], v[1], v[2]);
 }
 
-void draw_strobe(Canvas& canvas, const drop::Record& record, const Box& box, double scale) {
+void draw_title(Canvas& canvas, const Show& show) {
+  const double width = show.view.area.width + k_gap + k_panel;
+  draw_text_within(canvas, width, {k_left, 34.0}, title_of(show.trajectory), {19.0, k_ink, Align::left, true});
+  draw_text_within(canvas, width, {k_left, 57.0}, facts_text(show.trajectory), {k_text, k_muted});
+  draw_text_within(canvas, width, {k_left, 76.0}, start_text(show), {k_text, k_muted});
+}
+
+void draw_strobe(Canvas& canvas, const Trajectory& trajectory, const Sight& sight, double scale) {
   const double width = canvas.width() / scale;
   const double height = canvas.height() / scale;
-  const Frame frame{k_left, k_top, std::max(10.0, width - k_left - k_gap - k_panel - k_right),
-                    std::max(10.0, height - k_top - k_bottom)};
-  const Scene scene = make_scene(record, fit_view(box, record.parameters.l, frame, k_margins));
+  const Area area{k_left, k_top, std::max(10.0, width - k_left - k_gap - k_panel - k_right),
+                  std::max(10.0, height - k_top - k_bottom)};
+  const Show show(trajectory, fit_view(sight, area, k_margins));
   canvas.fill(k_paper);
-  draw_title(canvas, scene);
-  draw_plot(canvas, scene);
-  Panel panel(canvas, {frame.right() + k_gap, k_top - 14.0, k_panel, height - k_top});
-  draw_pose_legend(canvas, panel, scene);
-  draw_impulse_legend(canvas, panel, scene);
-  draw_impact_table(canvas, panel, scene);
+  draw_title(canvas, show);
+  draw_plot(canvas, show);
+  Panel panel(canvas, {area.right() + k_gap, k_top - 14.0, k_panel, height - k_top});
+  draw_pose_legend(canvas, panel, show);
+  draw_impulse_legend(canvas, panel, show);
+  draw_impact_table(canvas, panel, show);
 }
 
 }  // namespace
 
-std::string to_strobe_png(const drop::Record& record, int width, int height) {
-  check_record(record);
-  const Box box = box_of(record);
-  const Sizes sizes = choose_sizes(box, width, height, k_png_scale);
+std::string to_strobe_png(const Trajectory& trajectory, int width, int height) {
+  const Sight sight = sight_of(trajectory);
+  const Sizes sizes = choose_sizes(sight, width, height, k_png_scale);
   Canvas canvas = Canvas::image(sizes.width, sizes.height, sizes.scale);
-  draw_strobe(canvas, record, box, sizes.scale);
+  draw_strobe(canvas, trajectory, sight, sizes.scale);
   return canvas.to_png();
 }
 
-std::string to_strobe_svg(const drop::Record& record, int width, int height) {
-  check_record(record);
-  const Box box = box_of(record);
-  const Sizes sizes = choose_sizes(box, width, height, 1.0);
+std::string to_strobe_svg(const Trajectory& trajectory, int width, int height) {
+  const Sight sight = sight_of(trajectory);
+  const Sizes sizes = choose_sizes(sight, width, height, 1.0);
   Canvas canvas = Canvas::svg(sizes.width, sizes.height, sizes.scale);
-  draw_strobe(canvas, record, box, sizes.scale);
+  draw_strobe(canvas, trajectory, sight, sizes.scale);
   return canvas.to_svg();
 }
 

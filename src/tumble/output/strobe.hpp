@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "tumble/drop/drop.hpp"
+#include "tumble/trajectory/trajectory.hpp"
 
 namespace tumble::output {
 
-// Width and height in pixels; 0 is chosen by the shape of the path. Of a long run at most about 30 poses and
-// the largest impulses are shown, and the picture says which. Throws std::invalid_argument if positions are
-// too large to be drawn.
-std::string to_strobe_png(const drop::Record& record, int width = 0, int height = 0);
-std::string to_strobe_svg(const drop::Record& record, int width = 0, int height = 0);
+// Width and height in pixels; 0 is chosen by the shape of the motion. Of a long run at most about 30 poses and the
+// largest impulses are shown, and the picture says which; of many bodies fewer poses. Throws std::invalid_argument if
+// positions are too large to be drawn.
+std::string to_strobe_png(const Trajectory& trajectory, int width = 0, int height = 0);
+std::string to_strobe_svg(const Trajectory& trajectory, int width = 0, int height = 0);
 
 }  // namespace tumble::output

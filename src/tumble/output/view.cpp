@@ -1,23 +1,12 @@
 #include "tumble/output/view.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 namespace tumble::output {
 namespace {
-
-// Products of two such numbers stay finite.
-constexpr double k_largest = 1e100;
-constexpr double k_smallest_side = 1e-100;
-
-// The ground is part of the picture while it is no farther below the path than this many times the path's own
-// size.
-constexpr double k_ground_reach = 2.0;
-constexpr double k_smallest_size = 4.0;  // of the picture, in sides of the square: room around a square at rest
 
 // Labels with more digits than this are told relative to the middle.
 constexpr double k_longest_label = 1e4;
@@ -69,56 +58,29 @@ double round_up_nicely(double value) {
   return 10.0 * power;
 }
 
-Box box_of(const drop::Record& record) {
-  const auto columns = static_cast<std::size_t>(record.trajectory.columns);
-  const double l = record.parameters.l;
-  const auto x_begin = record.trajectory.q.begin();
-  const auto y_begin = x_begin + static_cast<std::ptrdiff_t>(columns);
-  const auto [x_low, x_high] = std::minmax_element(x_begin, y_begin);
-  const auto [y_low, y_high] = std::minmax_element(y_begin, y_begin + static_cast<std::ptrdiff_t>(columns));
-  for (const double value : {*x_low, *x_high, *y_low, *y_high, l}) {
-    if (std::abs(value) <= k_largest && l >= k_smallest_side) continue;
-    throw std::invalid_argument(
-        fmt::format("picture: positions must lie in [-{0:g}, {0:g}] m and l in [{1:g}, {0:g}] m, got {2:g}", k_largest,
-                    k_smallest_side, std::abs(value) <= k_largest ? l : value));
-  }
-  const double radius = l * std::sqrt(0.5);  // the square turns within this circle
-  Box box{*x_low - radius, *x_high + radius, *y_low - radius, *y_high + radius, false};
-  const double size = std::max({box.x_high - box.x_low, box.y_high - box.y_low, k_smallest_size * l});
-  box.has_ground = box.y_low <= k_ground_reach * size && box.y_high >= -k_ground_reach * size;
-  if (box.has_ground) {
-    box.y_low = std::min(box.y_low, 0.0);
-    box.y_high = std::max(box.y_high, 0.0);
-  }
-  return box;
-}
-
-View fit_view(const Box& box, double l, const Frame& frame, const Margins& margins) {
-  const double width = std::max(1.0, frame.width - 2.0 * margins.side);
-  const double height = std::max(1.0, frame.height - margins.top - margins.bottom);
-  const double box_width = box.x_high - box.x_low;
-  const double box_height = box.y_high - box.y_low;
-  const double smallest = k_smallest_size * l;
-  const double scale = std::min({width / box_width, height / box_height, std::min(width, height) / smallest});
-  View view{frame, {}, scale, l * scale, box.has_ground};
-  view.middle.x = 0.5 * box.x_low + 0.5 * box.x_high;
-  // A box lower than the frame rests on the bottom margin if it stands on the ground, else it hangs in the
-  // middle.
-  const double spare = height - box_height * scale;
-  const double below = margins.bottom + (box.has_ground && box.y_low > -smallest ? 0.0 : 0.5 * spare);
-  view.middle.y = box.y_low + (0.5 * frame.height - below) / scale;
+View fit_view(const Sight& sight, const Area& area, const Margins& margins) {
+  const double width = std::max(1.0, area.width - 2.0 * margins.side);
+  const double height = std::max(1.0, area.height - margins.top - margins.bottom);
+  const Vector2 size = sight.box.high - sight.box.low;
+  const double scale = std::min({width / size.x, height / size.y, std::min(width, height) / sight.smallest});
+  View view{area, {}, scale};
+  view.middle.x = 0.5 * sight.box.low.x + 0.5 * sight.box.high.x;
+  // A box lower than the area rests on the bottom margin if it stands on the ground, else it hangs in the middle.
+  const double spare = height - size.y * scale;
+  const double below = margins.bottom + (sight.has_ground ? 0.0 : 0.5 * spare);
+  view.middle.y = sight.box.low.y + (0.5 * area.height - below) / scale;
   return view;
 }
 
 Axis axis_x(const View& view, int count) {
-  const double centre = view.frame.left + 0.5 * view.frame.width;
-  return make_axis({view.middle.x, 0.5 * view.frame.width / view.scale}, count,
+  const double centre = view.area.left + 0.5 * view.area.width;
+  return make_axis({view.middle.x, 0.5 * view.area.width / view.scale}, count,
                    [&](double offset) { return centre + offset * view.scale; });
 }
 
 Axis axis_y(const View& view, int count) {
-  const double centre = view.frame.top + 0.5 * view.frame.height;
-  return make_axis({view.middle.y, 0.5 * view.frame.height / view.scale}, count,
+  const double centre = view.area.top + 0.5 * view.area.height;
+  return make_axis({view.middle.y, 0.5 * view.area.height / view.scale}, count,
                    [&](double offset) { return centre - offset * view.scale; });
 }
 

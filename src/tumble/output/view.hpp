@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "tumble/drop/drop.hpp"
+#include "tumble/geometry/placed_shape.hpp"
+#include "tumble/math/vector2.hpp"
+#include "tumble/trajectory/trajectory.hpp"
 
 namespace tumble::output {
 
@@ -13,17 +15,8 @@ struct Point {
   double y;
 };
 
-// A part of the world [m], y up.
-struct Box {
-  double x_low;
-  double x_high;
-  double y_low;
-  double y_high;
-  bool has_ground;  // the line y = 0 is inside
-};
-
 // A part of the picture [px], y down.
-struct Frame {
+struct Area {
   double left;
   double top;
   double width;
@@ -33,32 +26,38 @@ struct Frame {
   double bottom() const { return top + height; }
 };
 
-// Where the square is during the whole record, at any angle, and the ground unless it is so far away that the
-// square would shrink to a speck for its sake. Throws std::invalid_argument if that is too large to be drawn.
-Box box_of(const drop::Record& record);
+// What of the world a picture shows.
+struct Sight {
+  Box box;                  // [m]
+  double smallest = 0.0;    // [m] > 0: as much as that is shown in each direction, room around a body at rest
+  bool has_ground = false;  // a half-plane carries what is in the box
+};
+
+// Where all that moves is during the whole run; of the fixed world what is near, and the boundary of half-planes unless
+// it is so far away that bodies would shrink to specks for its sake. Where a few bodies leave the others far behind,
+// the place of the others. Throws std::invalid_argument if that is too large or too small to be drawn.
+Sight sight_of(const Trajectory& trajectory);
 
 // Equal scales along x and y. Positions are taken relative to the middle first, so that a picture far from
 // the origin keeps its detail.
 struct View {
-  Frame frame;
-  Point middle;  // [m], in the middle of the frame
-  double scale;  // [px / m]
-  double side;   // of the square [px]
-  bool has_ground;
+  Area area;
+  Vector2 middle;  // [m], in the middle of the area
+  double scale;    // [px / m]
 
-  Point to_pixel(double x, double y) const {
-    return {frame.left + 0.5 * frame.width + (x - middle.x) * scale,
-            frame.top + 0.5 * frame.height - (y - middle.y) * scale};
+  Point to_pixel(Vector2 position) const {
+    return {area.left + 0.5 * area.width + (position.x - middle.x) * scale,
+            area.top + 0.5 * area.height - (position.y - middle.y) * scale};
   }
 };
 
-// The box as large as it fits between the margins [px] of the frame.
+// The sight as large as it fits between the margins [px] of the area.
 struct Margins {
   double side;
   double top;
   double bottom;
 };
-View fit_view(const Box& box, double l, const Frame& frame, const Margins& margins);
+View fit_view(const Sight& sight, const Area& area, const Margins& margins);
 
 struct Tick {
   double pixel;

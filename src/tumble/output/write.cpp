@@ -11,6 +11,7 @@
 
 #include "tumble/output/animation.hpp"
 #include "tumble/output/csv.hpp"
+#include "tumble/output/drop_trajectory.hpp"
 #include "tumble/output/file.hpp"
 #include "tumble/output/gif.hpp"
 #include "tumble/output/hdf5.hpp"
@@ -39,8 +40,12 @@ constexpr std::array<NamedFormat, 7> k_record_formats = {{{"csv", Format::csv},
                                                           {"png", Format::png},
                                                           {"svg", Format::svg}}};
 
-constexpr std::array<NamedFormat, 2> k_trajectory_formats = {{{"contacts.csv", Format::contacts_csv},  // before csv
-                                                              {"csv", Format::csv}}};
+constexpr std::array<NamedFormat, 6> k_trajectory_formats = {{{"contacts.csv", Format::contacts_csv},  // before csv
+                                                              {"csv", Format::csv},
+                                                              {"gif", Format::gif},
+                                                              {"mp4", Format::mp4},
+                                                              {"png", Format::png},
+                                                              {"svg", Format::svg}}};
 
 constexpr std::size_t k_max_bytes_read = std::size_t{4} << 30;  // 4 GiB
 
@@ -163,19 +168,32 @@ void check_writable(const std::filesystem::path& path, const WriteOptions& optio
   check_target(path, options.overwrite);
 }
 
-std::string to_bytes(const drop::Record& record, const WriteOptions& options, Format format) {
-  const Size gif = animation_size(options, Format::gif);
-  switch (format) {
-    case Format::npz: return to_npz(record);
-    case Format::h5: return to_hdf5(record);
-    case Format::gif: return to_gif(record, gif.width, gif.height, options.speed);
-    case Format::png: return to_strobe_png(record, options.width, options.height);
-    case Format::svg: return to_strobe_svg(record, options.width, options.height);
-    case Format::csv:
-    case Format::contacts_csv:
-    case Format::mp4: break;
+bool is_picture(Format format) {
+  return format == Format::gif || format == Format::mp4 || format == Format::png || format == Format::svg;
+}
+
+void write_film(const Trajectory& trajectory, const std::filesystem::path& path, const WriteOptions& options) {
+  OutputFile file(path, options.overwrite);
+  const Size size = animation_size(options, Format::mp4);
+  try {
+    write_mp4(trajectory, file.working_path(), size.width, size.height, options.speed);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path_text(path), error.what()));
   }
-  return "";
+  file.commit();
+}
+
+void write_picture(const Trajectory& trajectory, const std::filesystem::path& path, const WriteOptions& options,
+                   Format format) {
+  if (format == Format::mp4) {
+    write_film(trajectory, path, options);
+    return;
+  }
+  const Size gif = animation_size(options, Format::gif);
+  const std::string bytes = format == Format::gif   ? to_gif(trajectory, gif.width, gif.height, options.speed)
+                            : format == Format::png ? to_strobe_png(trajectory, options.width, options.height)
+                                                    : to_strobe_svg(trajectory, options.width, options.height);
+  write_file_atomically(path, bytes, options.overwrite);
 }
 
 }  // namespace
@@ -195,22 +213,15 @@ void write_record(const drop::Record& record, const std::filesystem::path& path,
   check_writable(path, options);
   const Format format = format_of(path, options, k_record_formats);
   check_length(options, format, duration_of(record.parameters, record.trajectory.columns));
-  if (format != Format::csv && format != Format::mp4) {
-    write_file_atomically(path, to_bytes(record, options, format), options.overwrite);
-    return;
-  }
-  OutputFile file(path, options.overwrite);
-  if (format == Format::csv) {
+  if (is_picture(format)) {
+    write_picture(trajectory_of(record), path, options, format);
+  } else if (format == Format::csv) {
+    OutputFile file(path, options.overwrite);
     write_csv(record, file);
+    file.commit();
   } else {
-    const Size size = animation_size(options, format);
-    try {
-      write_mp4(record, file.working_path(), size.width, size.height, options.speed);
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(fmt::format("cannot write {}: {}", path_text(path), error.what()));
-    }
+    write_file_atomically(path, format == Format::npz ? to_npz(record) : to_hdf5(record), options.overwrite);
   }
-  file.commit();
 }
 
 void check_trajectory_writable(const std::filesystem::path& path, const WriteOptions& options, double duration) {
@@ -222,6 +233,10 @@ void check_trajectory_writable(const std::filesystem::path& path, const WriteOpt
 void write_trajectory(const Trajectory& trajectory, const std::filesystem::path& path, const WriteOptions& options) {
   const Format format = format_of(path, options, k_trajectory_formats);
   check_trajectory_writable(path, options, trajectory.time.back());
+  if (is_picture(format)) {
+    write_picture(trajectory, path, options, format);
+    return;
+  }
   OutputFile file(path, options.overwrite);
   if (format == Format::csv) write_csv(trajectory, file);
   if (format == Format::contacts_csv) write_contacts_csv(trajectory, file);

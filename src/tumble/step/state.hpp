@@ -21,6 +21,7 @@ struct ContactMemory {
   int body_a = 0, body_b = 0, part_a = 0, part_b = 0;
   std::uint32_t feature = 0;
   ContactMode mode = ContactMode::open;
+  bool has_stuck = false;
   double normal_impulse = 0.0, friction_impulse = 0.0;  // [N s]
 };
 

@@ -16,6 +16,11 @@ using Velocities = std::vector<Vector3>;
 constexpr double k_energy_round_off = 1e-12;
 // [-] of the way that a contact can go in a step: a gap below is closed.
 constexpr double k_gap_round_off = 1e-12;
+// [-] of the largest speed at the contacts of an island: what approaches or slips slower is at rest.
+constexpr double k_speed_round_off = 1e-12;
+// [-] of the same: impacts that follow from others in the same step, and approach slower, wait for the next one.
+constexpr double k_impact_share = 1e-9;
+constexpr int k_max_impact_rounds = 8;  // the last without restitution
 
 struct Island {
   Parts& parts;
@@ -23,6 +28,7 @@ struct Island {
   double h;
   const StepSettings& settings;
   IslandOutcome outcome;
+  double largest_speed = 0.0, rest_speed = 0.0;  // [m/s]
 
   StepContact& at(int i) const { return parts.contacts[static_cast<Index>(i)]; }
 
@@ -122,6 +128,12 @@ struct Island {
     }
   }
 
+  // Where contacts share a load, a force at the edge of its cone is no slip.
+  bool slips(const StepContact& c, const Velocities& velocity) const {
+    return c.mode != ContactMode::open && c.mode != ContactMode::stick &&
+           std::abs(contact_velocity(c.rows, velocity)[1]) > rest_speed;
+  }
+
   // The same; contacts that static friction does not hold slip with the kinetic one.
   void solve_with_statics(const Velocities& from, Velocities& to) {
     for (;;) {
@@ -129,7 +141,7 @@ struct Island {
       bool has_broken = false;
       for (const int i : contacts) {
         StepContact& c = at(i);
-        if (!c.is_static || c.mode == ContactMode::open || c.mode == ContactMode::stick) continue;
+        if (!c.is_static || !slips(c, to)) continue;
         c.is_static = false;
         c.friction = c.law->friction;
         has_broken = true;
@@ -138,61 +150,160 @@ struct Island {
     }
   }
 
-  bool is_free() const {
+  void set_friction() {
     for (const int i : contacts) {
-      const StepContact& c = at(i);
-      if (c.gap + 0.5 * h * (c.speed[0] + c.free_speed[0]) < 0.0) return false;
+      StepContact& c = at(i);
+      c.is_static = c.has_stuck && c.law->static_friction > c.law->friction;
+      c.friction = c.is_static ? c.law->static_friction : c.law->friction;
     }
+  }
+
+  // Turning alone, by which closed contacts start with a speed of their bend, is no approach.
+  void set_bounce(StepContact& c, double end_speed) const {
+    c.end_speed = end_speed;
+    const double turning = c.was_closed ? c.bend / h : 0.0;
+    c.bounce = bounce_speed({c.gap, c.speed[0] - turning, end_speed - turning, h}, c.law->restitution);
+  }
+
+  // The gap [m] after the step, up to third order, without impacts.
+  double gap_without_impacts(const StepContact& c) const {
+    return c.gap + 0.5 * h * (c.speed[0] + c.end_speed) + c.bend;
+  }
+
+  // Contacts that were closed are judged by the law that closed them, that of landing, under which they start the step
+  // with the speed that takes the bend away.
+  bool is_free() const {
+    return std::none_of(contacts.begin(), contacts.end(), [&](int i) {
+      const StepContact& c = at(i);
+      return (c.was_closed ? c.gap + h * c.free_speed[0] + c.bend : gap_without_impacts(c)) < 0.0;
+    });
+  }
+
+  bool may_bounce(const StepContact& c) const { return c.bounce > rest_speed; }
+  bool is_bouncing(const StepContact& c) const { return may_bounce(c) && gap_without_impacts(c) < 0.0; }
+
+  void set_travel(const Velocities& velocity) {
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      for (Index j = 0; j < 3; ++j) parts.travel[b][j] = h * velocity[b][j];
+    }
+  }
+
+  // The contacts that stand, by one LCP for the velocity at the end of the step. Those that may bounce are left out.
+  void stand(Velocities& to) {
+    set_friction();
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      c.is_included = !may_bounce(c);
+      c.offset = std::max(c.gap + c.bend, 0.0) / h;
+    }
+    solve_with_statics(parts.free_velocity, to);
+  }
+
+  // With the velocity at the end of the step the bodies also move. False if this closes a contact that may bounce.
+  bool land() {
+    stand(parts.next_velocity);
+    set_travel(parts.next_velocity);
+    const bool closes = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
+      const StepContact& c = at(i);
+      return may_bounce(c) && c.gap + c.bend + h * contact_velocity(c.rows, parts.next_velocity)[0] < 0.0;
+    });
+    if (closes) return false;
+    note_forces();
+    add_work(parts.velocity, parts.next_velocity);
     return true;
   }
 
-  // A contact that bounces if its own motion, without the other contacts, closes the gap within the step.
-  bool is_bouncing(const StepContact& c) const {
-    return c.bounce > 0.0 && c.gap + 0.5 * h * (c.speed[0] + c.free_speed[0]) < 0.0;
-  }
-
-  // A contact that would be stopped by landing although it bounces: now, or in the next step.
-  bool must_not_land(const StepContact& c) const { return c.bounce > 0.0 && c.gap + h * c.free_speed[0] < 0.0; }
-
-  // One LCP for the velocity at the end of the step, with which the bodies also move.
-  void land() {
+  // What bounces is approached under the forces and the contacts that stand.
+  void find_approach() {
+    stand(parts.way_velocity);
     for (const int i : contacts) {
       StepContact& c = at(i);
-      c.is_included = true;
-      c.offset = c.gap / h;
-    }
-    solve_with_statics(parts.free_velocity, parts.next_velocity);
-    for (const int body : parts.island_body) {
-      const auto b = static_cast<Index>(body);
-      for (Index j = 0; j < 3; ++j) parts.travel[b][j] = h * parts.next_velocity[b][j];
+      if (may_bounce(c)) set_bounce(c, contact_velocity(c.rows, parts.way_velocity)[0]);
     }
   }
 
-  // One LCP for the way, one for the velocities after.
-  void bounce() {
+  // One LCP for the way, until gaps close. What bounces meets its friction after the way.
+  void find_way() {
+    set_friction();
     for (const int i : contacts) {
       StepContact& c = at(i);
       c.is_included = true;
-      c.offset = c.gap / h;
-      c.friction = is_bouncing(c) ? 0.0 : c.friction;  // what bounces meets its friction after the way
+      c.offset = std::max(c.gap + c.bend, 0.0) / h;
+      if (is_bouncing(c)) c.friction = 0.0;
     }
     solve_with_statics(parts.middle_velocity, parts.way_velocity);
-    for (const int body : parts.island_body) {
-      const auto b = static_cast<Index>(body);
-      for (Index j = 0; j < 3; ++j) parts.travel[b][j] = h * parts.way_velocity[b][j];
-    }
+    set_travel(parts.way_velocity);
     for (const int i : contacts) {
       StepContact& c = at(i);
       const double way = h * contact_velocity(c.rows, parts.way_velocity)[0];
       const double round_off = k_gap_round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])));
-      const bool is_touched = c.mode != ContactMode::open || c.gap + way <= round_off;
-      c.is_included = is_touched;
-      const bool is_bounce = is_touched && is_bouncing(c);
-      c.offset = is_bounce ? -c.bounce : 0.0;
-      c.restitution = is_bounce ? c.law->restitution : 0.0;
-      if (!c.is_static) c.friction = c.law->friction;
+      c.is_touched = c.mode != ContactMode::open || c.gap + c.bend + way <= round_off;
+    }
+  }
+
+  // The velocities after the impacts at the end of the way, by one LCP for those that bounce by themselves and those
+  // that stand, then by one for each round of impacts that follow from these. Contacts that are opening are not part of
+  // an LCP: it would push bodies together that part. Where it drives them together, they bounce in the next round.
+  void bounce() {
+    find_approach();
+    find_way();
+    set_friction();
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      const bool bounces = is_bouncing(c);
+      const bool stands = !may_bounce(c) && c.end_speed <= rest_speed;
+      c.is_included = c.is_touched && (bounces || stands);
+      c.offset = bounces ? -c.bounce : 0.0;
+      c.restitution = c.is_included && bounces ? c.law->restitution : 0.0;
     }
     solve_with_statics(parts.free_velocity, parts.next_velocity);
+    note_forces();
+    add_work(parts.velocity, parts.next_velocity);
+    for (int round = 1; round <= k_max_impact_rounds && list_next_impacts(round < k_max_impact_rounds); ++round) {
+      parts.way_velocity = parts.next_velocity;
+      solve_with_statics(parts.way_velocity, parts.next_velocity);
+      add_work(parts.way_velocity, parts.next_velocity);
+    }
+  }
+
+  // Contacts that are touched and do not open now; false if none of them closes. Without restitution the round is the
+  // last.
+  bool list_next_impacts(bool with_restitution) {
+    bool has_impact = false;
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      const double speed = contact_velocity(c.rows, parts.next_velocity)[0];
+      c.is_included = c.is_touched && (speed <= rest_speed || !with_restitution);
+      const bool is_impact = c.is_touched && speed < -k_impact_share * largest_speed;
+      const double restitution = is_impact && with_restitution ? c.law->restitution : 0.0;
+      c.offset = restitution * speed;
+      c.restitution = std::max(c.restitution, restitution);
+      has_impact = has_impact || is_impact;
+    }
+    return has_impact;
+  }
+
+  // The velocities that the forces of the step have worked on.
+  void note_forces() {
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      parts.force_velocity[b] = parts.next_velocity[b];
+    }
+  }
+
+  // Impulses of an LCP, and what they did.
+  void add_work(const Velocities& from, const Velocities& to) {
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
+      const auto u = contact_velocity(c.rows, from), next = contact_velocity(c.rows, to);
+      for (Index j = 0; j < 2; ++j) {
+        c.total_impulse[j] += c.impulse[j];
+        c.work[j] += 0.5 * c.impulse[j] * (u[j] + next[j]);
+      }
+      c.impact_mode = c.mode;
+    }
   }
 
   // The larger of the contact's A_nn and A_tt.
@@ -225,19 +336,15 @@ struct Island {
     };
     for (const int i : contacts) {
       const StepContact& c = at(i);
-      if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
-      const auto u = contact_velocity(c.rows, parts.next_velocity);
-      add(0.5 * c.impulse[0] * c.speed[0]);
-      add(0.5 * c.impulse[0] * u[0]);
-      add(0.5 * c.impulse[1] * c.speed[1]);
-      add(0.5 * c.impulse[1] * u[1]);
-      const double push = c.impulse[0] * c.impulse[0] + c.impulse[1] * c.impulse[1];
+      add(c.work[0]);
+      add(c.work[1]);
+      const double push = c.total_impulse[0] * c.total_impulse[0] + c.total_impulse[1] * c.total_impulse[1];
       sum.size += push * response_of(c);  // what the impulse alone would do: velocities are rounded sums of it
     }
     for (const int body : parts.island_body) {
       const auto b = static_cast<Index>(body);
       for (Index j = 0; j < 3; ++j) {
-        add(parts.force[b][j] * (0.5 * h * (parts.velocity[b][j] + parts.next_velocity[b][j]) - parts.travel[b][j]));
+        add(parts.force[b][j] * (0.5 * h * (parts.velocity[b][j] + parts.force_velocity[b][j]) - parts.travel[b][j]));
         sum.size += 0.5 * parts.mass[b][j] * parts.velocity[b][j] * parts.velocity[b][j];
       }
     }
@@ -251,31 +358,39 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
   Island island{parts, contacts, h, settings, {}};
   for (const int i : contacts) {
     StepContact& c = island.at(i);
-    c.is_static = c.has_stuck && c.law->static_friction > c.law->friction;
-    c.friction = c.is_static ? c.law->static_friction : c.law->friction;
     c.restitution = 0.0;
+    c.impact_mode = ContactMode::open;
+    c.work = c.total_impulse = {};
+    const double speed =
+        std::max({std::abs(c.speed[0]), std::abs(c.free_speed[0]), std::abs(c.speed[1]), std::abs(c.free_speed[1])});
+    island.largest_speed = std::max(island.largest_speed, speed);
+    island.set_bounce(c, c.free_speed[0]);
   }
+  island.rest_speed = k_speed_round_off * island.largest_speed;
   if (island.is_free()) {
     for (const int i : contacts) {
-      island.at(i).mode = ContactMode::open;
-      island.at(i).impulse = {};
-      island.at(i).speed_after = island.at(i).free_speed;
+      StepContact& c = island.at(i);
+      c.mode = ContactMode::open;
+      c.sticks = false;
+      c.impulse = {};
+      c.speed_after = c.free_speed;
     }
     return island.outcome;
   }
   island.list_bodies();
   const bool bounces =
       std::any_of(contacts.begin(), contacts.end(), [&](int i) { return island.is_bouncing(island.at(i)); });
-  if (bounces) {
-    island.bounce();
-  } else {
-    island.land();
-  }
+  if (bounces || !island.land()) island.bounce();
   for (const int i : contacts) {
     StepContact& c = island.at(i);
     c.speed_after = contact_velocity(c.rows, parts.next_velocity);
+    if (c.mode == ContactMode::open) c.mode = c.impact_mode;  // of an earlier round
+    if (c.friction == 0.0 && c.mode != ContactMode::open)     // no friction tells which way it slips
+      c.mode = c.speed_after[1] < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
+    c.sticks = c.mode != ContactMode::open && !island.slips(c, parts.next_velocity);
     island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;
   }
+  separate(parts, contacts, h, -island.created().energy);
   const Island::Created created = island.created();
   if (created.energy > k_energy_round_off * created.size) island.outcome.created = created.energy;
   island.forget_bodies();

@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "tumble/contact/contact_rows.hpp"
 #include "tumble/contact/island_solver.hpp"
 #include "tumble/geometry/detect_contacts.hpp"
+#include "tumble/geometry/gap_rate.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/step/step_report.hpp"
 #include "tumble/step/time_step.hpp"
@@ -17,24 +19,40 @@ namespace tumble {
 struct StepContact {
   Contact contact;
   const ContactLaw* law = nullptr;
+  Vector2 tangent;
+  ContactPlaces places;                // of the impulse
   BodyContact rows;                    // bodies: index into the scene, -1 unless dynamic; offsets: of the motion of
                                        // kinematic bodies and conveyors
   std::array<double, 2> speed{};       // at the start of the step
   std::array<double, 2> free_speed{};  // at its end, were there no contacts
-  double gap = 0.0;                    // [m] what may close during the step: 0 where the bodies overlap
-  double bounce = 0.0;                 // [m/s] speed of separation, if the gap closes
+  double gap = 0.0;                    // [m] at the start of the step; 0 where the bodies overlap
+  double bend = 0.0;                   // [m] what turning and curved surfaces add to it in the step: h^2 / 2 times
+                                       // `gap_curvature`
+  double gap_at_start = 0.0;           // [m] < 0: overlap
+  bool is_ahead = false;               // of fast bodies: where they will meet, not where they are closest now
+  bool was_closed = false;             // in the last step
   bool has_stuck = false;              // in the last step: static friction may hold it
   bool is_listed = false;              // in an island: it may be touched in this step
   bool is_new = false;                 // there, since the islands were last solved
+  // Of the island.
+  double end_speed = 0.0;   // u_n at the end of the step, were there no impacts
+  double bounce = 0.0;      // [m/s] speed of separation, if the gap closes
+  bool is_touched = false;  // at the end of the way
   // Of the LCP being solved, and what came out.
   bool is_included = true;
-  double friction = 0.0;                 // kinetic, or static
-  bool is_static = false;                // friction is the static one, and that is larger
-  double offset = 0.0;                   // of u_n
-  ContactMode mode = ContactMode::open;  // in: where to start
-  std::array<double, 2> impulse{};       // in: where to start
+  double friction = 0.0;                        // kinetic, or static
+  bool is_static = false;                       // friction is the static one, and that is larger
+  double offset = 0.0;                          // of u_n
+  ContactMode mode = ContactMode::open;         // in: where to start
+  std::array<double, 2> impulse{};              // in: where to start
+  std::array<double, 2> total_impulse{};        // of all LCPs for velocities
+  std::array<double, 2> work{};                 // [J] of these
+  ContactMode impact_mode = ContactMode::open;  // in the last of these that had an impulse
   std::array<double, 2> speed_after{};
+  bool sticks = false;       // closed, without slip
   double restitution = 0.0;  // that was at work
+  double way_bend = 0.0;     // [m] of the way found
+  double push = 0.0;         // [kg m] of `separate`
 };
 
 struct IslandOutcome {
@@ -43,6 +61,11 @@ struct IslandOutcome {
   int factorisations = 0;
   bool is_at_work = false;  // some contact was touched
   double created = 0.0;     // [J], above round-off
+};
+
+struct PartSize {
+  double radius = 0.0;     // [m] of a circle that holds the part
+  double thickness = 0.0;  // [m] its smallest width
 };
 
 struct StepWorkspace::Parts {
@@ -55,7 +78,10 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> mass;          // (m, m, I)
   std::vector<double> radius;         // of the circle about the origin of the body's frame that holds it
 
+  std::vector<std::vector<PartSize>> sizes;  // per body, per part
+
   // Of a step, per body.
+  std::vector<Pose> poses;
   std::vector<Frame> frames;
   std::vector<double> reach;             // [m]
   std::vector<Vector3> velocity;         // at the start; of kinematic bodies, their mean during the step
@@ -64,10 +90,14 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> free_velocity;    // v_f
   std::vector<Vector3> middle_velocity;  // (v + v_f) / 2
   std::vector<Vector3> next_velocity;
-  std::vector<Vector3> travel;  // x, y, angle
+  std::vector<Vector3> force_velocity;  // after the forces and the first impacts: forces work along its mean with v
+  std::vector<Vector3> travel;          // x, y, angle
+  std::vector<Vector3> shift;           // what `separate` adds to it; 0 outside
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
+  std::vector<Contact> fast_pairs;  // of each one contact, for its ids: looked at along their way
+  std::vector<ContactPoint> points;
   std::vector<int> parent;             // union-find over bodies
   std::vector<int> island_of;          // root body -> island
   std::vector<int> island_begin;       // islands + 1
@@ -78,11 +108,35 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> way_velocity;  // of the LCP for the way
 };
 
+// The contacts in reach, with what is known of them before anything is solved, in the order of their ids.
+void prepare_contacts(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
+
+// [m] What turning and curved surfaces add to the gap in the step, to second order, where the two bodies move with
+// these velocities; 0 where that says little.
+double bend_of(const Contact& contact, const Motion& a, const Motion& b, double step_size);
+
+// Lists contacts that the motion found would overrun. False if there are none.
+bool list_overrun(double step_size, StepWorkspace::Parts& parts);
+
+// Adds the contacts of fast bodies that the motion found would run through. False if there are none.
+bool add_contacts_on_way(const Scene& scene, double step_size, StepWorkspace::Parts& parts);
+
+// Shortens the ways of fast bodies that would still run through each other, so that they end where they meet.
+void stop_at_impacts(const Scene& scene, double step_size, StepWorkspace::Parts& parts);
+
+// The motion of all islands, and the contacts that they reach. Islands whose contacts stay the same keep theirs.
+void step_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);
+
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
 
 // Velocities and travel of the bodies of one island, impulses and modes of its contacts.
 IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, double step_size,
                           const StepSettings& settings);
+
+// Adds to the travel of the bodies of one island what takes them out of what they would overlap after the step, the
+// least in the metric of their masses. Velocities stay. Bodies are lifted against their forces by no more work than
+// `lost` [J], what the step has lost: the sum creates no energy.
+void separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, double lost);
 
 // Velocity (u_n, u_t) of the contact where its bodies have the given ones.
 inline std::array<double, 2> contact_velocity(const BodyContact& rows, const std::vector<Vector3>& velocity) {

@@ -25,17 +25,22 @@ struct EnergyLedger {
                                     // energy from nothing, island by island; else 0
 };
 
-// A contact in one step. Velocities are those of b seen from a; impulses act on b, their opposites on a.
+// A contact in one step. Velocities are those of b seen from a. Impulses act on b at place_b, their opposites on a at
+// place_a: normal_impulse along contact.normal, friction_impulse along the tangent.
 struct ContactRecord {
-  Contact contact;  // bodies, features, points, gap, normal, before the step
+  Contact contact;           // bodies, features, points, gap, normal, before the step
+  Vector2 tangent;           // the normal turned right; of two contacts on one side, that of the nearer one for both
+  Vector2 place_a, place_b;  // [m] one place, unless the bodies were apart before the step
   ContactLaw law;
+  double bend = 0.0;             // [m] what turning and curved surfaces add to the gap in the step: it is closed where
+                                 // u_n' = -(gap + bend) / step size
   double normal_velocity = 0.0;  // before [m/s]
   double tangential_velocity = 0.0;
   double normal_velocity_after = 0.0;  // [m/s]
   double tangential_velocity_after = 0.0;
-  double normal_impulse = 0.0;    // [N s] >= 0
-  double friction_impulse = 0.0;  // along the tangent, the normal turned right
-  double restitution = 0.0;       // what of the law's restitution was at work: 0 where nothing bounced
+  double normal_impulse = 0.0;  // [N s] >= 0
+  double friction_impulse = 0.0;
+  double restitution = 0.0;  // what of the law's restitution was at work: 0 where nothing bounced
   ContactMode mode = ContactMode::open;
 };
 

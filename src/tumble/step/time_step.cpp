@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "tumble/contact/contact_rows.hpp"
-#include "tumble/contact/restitution.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/step/step_parts.hpp"
 
@@ -40,8 +38,26 @@ double radius_of(const Shape& shape) {
   return HUGE_VAL;  // a half-plane
 }
 
-bool is_dynamic(const Scene& scene, int body) {
-  return scene.bodies[static_cast<Index>(body)].kind == BodyKind::dynamic;
+PartSize size_of(const Shape& shape) {
+  if (const auto* polygon = std::get_if<RoundedPolygon>(&shape)) {
+    const std::vector<Vector2>& v = polygon->vertices;
+    PartSize size{0.0, v.size() < 3 ? 0.0 : HUGE_VAL};
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const Vector2 side = v[(i + 1) % v.size()] - v[i];
+      double width = 0.0;
+      for (const Vector2 vertex : v) {
+        size.radius = std::max(size.radius, 0.5 * length(vertex - v[i]));
+        if (v.size() > 2) width = std::max(width, cross(side, vertex - v[i]) / length(side));
+      }
+      size.thickness = std::min(size.thickness, width);
+    }
+    return {size.radius + polygon->rounding, size.thickness + 2.0 * polygon->rounding};
+  }
+  if (const auto* ellipse = std::get_if<Ellipse>(&shape)) {
+    return {std::max(ellipse->semi_axis_x, ellipse->semi_axis_y),
+            2.0 * std::min(ellipse->semi_axis_x, ellipse->semi_axis_y)};
+  }
+  return {HUGE_VAL, HUGE_VAL};
 }
 
 void check(const Scene& scene, double step_size, const State& state) {
@@ -67,6 +83,7 @@ void predict(const Scene& scene, double h, const State& state, Parts& parts) {
   for (Index i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     const BodyState& now = state.bodies[i];
+    parts.poses[i] = now.pose;
     parts.frames[i] = frame_of(now.pose);
     if (body.kind == BodyKind::fixed) continue;
     if (body.kind == BodyKind::kinematic) {
@@ -92,7 +109,7 @@ void predict(const Scene& scene, double h, const State& state, Parts& parts) {
     }
     if (body.angular_damping > 0.0) free[2] /= 1.0 + h * body.angular_damping;
     parts.velocity[i] = v;
-    parts.free_velocity[i] = parts.next_velocity[i] = free;
+    parts.free_velocity[i] = parts.next_velocity[i] = parts.force_velocity[i] = free;
     for (Index j = 0; j < 3; ++j) {
       parts.middle_velocity[i][j] = 0.5 * (v[j] + free[j]);
       parts.travel[i][j] = h * parts.middle_velocity[i][j];
@@ -104,178 +121,6 @@ void predict(const Scene& scene, double h, const State& state, Parts& parts) {
     parts.reach[i] = h * (speed + spin * radius) + k_slack * radius;
   }
 }
-
-void add_offsets(const Scene& scene, const Parts& parts, StepContact& c) {
-  const Contact& contact = c.contact;
-  const auto a = static_cast<Index>(contact.body_a), b = static_cast<Index>(contact.body_b);
-  if (!is_dynamic(scene, contact.body_a)) {
-    c.rows.offset += dot(c.rows.normal_a, parts.velocity[a]);
-    c.rows.tangent_offset += dot(c.rows.tangent_a, parts.velocity[a]);
-    c.rows.body_a = -1;
-  }
-  if (!is_dynamic(scene, contact.body_b)) {
-    c.rows.offset += dot(c.rows.normal_b, parts.velocity[b]);
-    c.rows.tangent_offset += dot(c.rows.tangent_b, parts.velocity[b]);
-    c.rows.body_b = -1;
-  }
-  const Part& part_a = scene.bodies[a].parts[static_cast<Index>(contact.part_a)];
-  const Part& part_b = scene.bodies[b].parts[static_cast<Index>(contact.part_b)];
-  // Each runs along its own outward normal turned right: t for a, -t for b.
-  c.rows.tangent_offset -= part_a.surface_speed + part_b.surface_speed;
-}
-
-const ContactLaw& law_of(const Scene& scene, const Parts& parts, const Contact& contact) {
-  const auto material = [&](int body, int part) {
-    return static_cast<Index>(scene.bodies[static_cast<Index>(body)].parts[static_cast<Index>(part)].material);
-  };
-  return parts.laws[material(contact.body_a, contact.part_a) * scene.materials.size() +
-                    material(contact.body_b, contact.part_b)];
-}
-
-bool is_before(const ContactMemory& memory, const Contact& contact) {
-  const auto key = [](const auto& c) { return std::tie(c.body_a, c.body_b, c.part_a, c.part_b, c.feature); };
-  return key(memory) < key(contact);
-}
-
-// Contacts of one pair of sides share one line of friction: their tangents are those of the first, whose place is on a
-// flat side if there is one. With lines that differ by the tilt of two sides, however small, rigid bodies could jam on
-// them with forces as large as the tilt is small; on one line they cannot, and where both contacts are closed there is
-// no tilt.
-void share_friction_line(const StepContact& first, StepContact& second) {
-  constexpr double nearly_parallel = 0.99;  // cosine
-  const Contact &c = first.contact, &d = second.contact;
-  const bool is_same_pair =
-      c.body_a == d.body_a && c.body_b == d.body_b && c.part_a == d.part_a && c.part_b == d.part_b;
-  if (!is_same_pair || dot(c.normal, d.normal) < nearly_parallel) return;
-  second.rows.tangent_a = first.rows.tangent_a;
-  second.rows.tangent_b = first.rows.tangent_b;
-}
-
-// The contacts in reach, with what is known of them before anything is solved.
-void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
-  const std::vector<Contact>& found = parts.finder.find(parts.frames, parts.reach);
-  parts.contacts.resize(found.size());
-  Index memory = 0;
-  for (Index i = 0; i < found.size(); ++i) {
-    StepContact& c = parts.contacts[i];
-    c = {};
-    c.contact = found[i];
-    c.law = &law_of(scene, parts, c.contact);
-    const auto a = static_cast<Index>(c.contact.body_a), b = static_cast<Index>(c.contact.body_b);
-    const Vector2 place = contact_place(c.contact);
-    c.rows = contact_rows(c.contact, place, parts.frames[a].position, parts.frames[b].position);
-    if (i > 0) share_friction_line(parts.contacts[i - 1], c);
-    add_offsets(scene, parts, c);
-    c.speed = contact_velocity(c.rows, parts.velocity);
-    c.free_speed = contact_velocity(c.rows, parts.free_velocity);
-    c.gap = std::max(c.contact.gap, 0.0);
-    c.bounce = bounce_speed({c.gap, c.speed[0], c.free_speed[0], h}, c.law->restitution);
-
-    while (memory < state.contacts.size() && is_before(state.contacts[memory], c.contact)) ++memory;
-    const bool is_known =
-        memory < state.contacts.size() && state.contacts[memory].body_a == c.contact.body_a &&
-        state.contacts[memory].body_b == c.contact.body_b && state.contacts[memory].part_a == c.contact.part_a &&
-        state.contacts[memory].part_b == c.contact.part_b && state.contacts[memory].feature == c.contact.feature;
-    if (is_known) {
-      const ContactMemory& last = state.contacts[memory];
-      c.mode = last.mode;
-      c.impulse = {last.normal_impulse, last.friction_impulse};
-    } else if (c.free_speed[0] + c.gap / h < 0.0) {
-      c.mode = ContactMode::stick;
-    }
-    c.has_stuck = is_known ? c.mode == ContactMode::stick : c.speed[1] == 0.0;
-    // Other contacts may push bodies together: those that they reach are listed then.
-    c.is_listed = c.is_new =
-        is_known || c.gap + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
-  }
-  parts.outcome.assign(found.size(), {});
-}
-
-int root_of(std::vector<int>& parent, int body) {
-  while (parent[static_cast<Index>(body)] != body) {
-    int& next = parent[static_cast<Index>(body)];
-    next = parent[static_cast<Index>(next)];
-    body = next;
-  }
-  return body;
-}
-
-// Bodies joined by contacts, contacts listed island by island, both in the order of the contacts.
-void find_islands(Parts& parts) {
-  const auto body_of = [](const StepContact& c) { return c.rows.body_a >= 0 ? c.rows.body_a : c.rows.body_b; };
-  for (const StepContact& c : parts.contacts) {
-    if (!c.is_listed) continue;
-    for (const int body : {c.rows.body_a, c.rows.body_b}) {
-      if (body >= 0) parts.parent[static_cast<Index>(body)] = body;
-    }
-  }
-  for (const StepContact& c : parts.contacts) {
-    if (!c.is_listed || c.rows.body_a < 0 || c.rows.body_b < 0) continue;
-    const int a = root_of(parts.parent, c.rows.body_a), b = root_of(parts.parent, c.rows.body_b);
-    parts.parent[static_cast<Index>(std::max(a, b))] = std::min(a, b);
-  }
-  const auto island_of = [&](const StepContact& c) -> int& {
-    return parts.island_of[static_cast<Index>(root_of(parts.parent, body_of(c)))];
-  };
-  for (const StepContact& c : parts.contacts) {
-    if (c.is_listed) island_of(c) = -1;
-  }
-  parts.island_begin.assign(1, 0);
-  for (const StepContact& c : parts.contacts) {
-    if (!c.is_listed) continue;
-    int& island = island_of(c);
-    if (island < 0) {
-      island = static_cast<int>(parts.island_begin.size()) - 1;
-      parts.island_begin.push_back(0);
-    }
-    ++parts.island_begin[static_cast<Index>(island) + 1];
-  }
-  for (Index i = 1; i < parts.island_begin.size(); ++i) parts.island_begin[i] += parts.island_begin[i - 1];
-  const int num_listed = parts.island_begin.back();
-  parts.island_contact.resize(static_cast<Index>(num_listed));
-  for (Index i = parts.contacts.size(); i-- > 0;) {
-    if (!parts.contacts[i].is_listed) continue;
-    // Filled from the end, so that begin moves down to where the island begins.
-    int& next = parts.island_begin[static_cast<Index>(island_of(parts.contacts[i])) + 1];
-    parts.island_contact[static_cast<Index>(--next)] = static_cast<int>(i);
-  }
-  // Every begin has moved to the one before: move them back.
-  parts.island_begin.erase(parts.island_begin.begin());
-  parts.island_begin.push_back(num_listed);
-}
-
-// Lists contacts that the motion found would overrun. False if there are none.
-bool list_overrun(double h, Parts& parts) {
-  constexpr double round_off = 1e-12;  // [-] of the way
-  bool has_new = false;
-  for (StepContact& c : parts.contacts) {
-    if (c.is_listed) continue;
-    double gap = c.gap + h * c.rows.offset;
-    if (c.rows.body_a >= 0) gap += dot(c.rows.normal_a, parts.travel[static_cast<Index>(c.rows.body_a)]);
-    if (c.rows.body_b >= 0) gap += dot(c.rows.normal_b, parts.travel[static_cast<Index>(c.rows.body_b)]);
-    if (gap >= -round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])))) continue;
-    c.is_listed = c.is_new = has_new = true;
-  }
-  return has_new;
-}
-
-// The motion of all islands. Those whose contacts stay the same keep theirs.
-void step_islands(double h, const StepSettings& settings, Parts& parts) {
-  do {
-    find_islands(parts);
-    for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
-      const auto begin = static_cast<Index>(parts.island_begin[i]), end = static_cast<Index>(parts.island_begin[i + 1]);
-      const IslandContacts contacts = IslandContacts(parts.island_contact).subspan(begin, end - begin);
-      bool is_new = false;
-      for (const int c : contacts) {
-        is_new = is_new || parts.contacts[static_cast<Index>(c)].is_new;
-        parts.contacts[static_cast<Index>(c)].is_new = false;
-      }
-      if (is_new) parts.outcome[static_cast<Index>(contacts.front())] = step_island(parts, contacts, h, settings);
-    }
-  } while (list_overrun(h, parts));
-}
-
 // True if no body went further than its contacts were looked for; else they are looked for further away.
 bool is_within_reach(const Scene& scene, Parts& parts) {
   bool is_within = true;
@@ -297,14 +142,15 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
     if (!c.is_listed) {
       c.speed_after = contact_velocity(c.rows, parts.next_velocity);
       c.mode = ContactMode::open;
-      c.impulse = {};
+      c.sticks = false;
+      c.impulse = c.total_impulse = c.work = {};
     }
-    report.contacts.push_back({c.contact, *c.law, c.speed[0], c.speed[1], c.speed_after[0], c.speed_after[1],
-                               c.impulse[0], c.impulse[1], c.restitution, c.mode});
-    if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
-    energy.impact_loss -= 0.5 * c.impulse[0] * (c.speed[0] + c.speed_after[0]);
-    energy.friction_loss -= 0.5 * c.impulse[1] * (c.speed[1] + c.speed_after[1]);
-    energy.external_work -= c.impulse[0] * c.rows.offset + c.impulse[1] * c.rows.tangent_offset;
+    report.contacts.push_back({c.contact, c.tangent, c.places.on_a, c.places.on_b, *c.law, c.bend, c.speed[0],
+                               c.speed[1], c.speed_after[0], c.speed_after[1], c.total_impulse[0], c.total_impulse[1],
+                               c.restitution, c.sticks ? ContactMode::stick : c.mode});
+    energy.impact_loss -= c.work[0];
+    energy.friction_loss -= c.work[1];
+    energy.external_work -= c.total_impulse[0] * c.rows.offset + c.total_impulse[1] * c.rows.tangent_offset;
   }
   for (Index i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
@@ -313,7 +159,7 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
     const Vector2 x = state.bodies[i].pose.position;
     energy.potential -= body.mass * (scene.gravity.x * x.x + scene.gravity.y * x.y);
     for (Index j = 0; j < 3; ++j) {
-      const double middle = 0.5 * h * (v[j] + next[j]);
+      const double middle = 0.5 * h * (v[j] + parts.force_velocity[i][j]);
       energy.kinetic += 0.5 * parts.mass[i][j] * next[j] * next[j];
       energy.external_work += parts.wrench[i][j] * travel[j];
       energy.stabilisation_work += parts.force[i][j] * (middle - travel[j]);
@@ -338,13 +184,18 @@ StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
     mass.push_back(moves ? m : Vector3{});
     inverse_mass.push_back(moves ? Vector3{1.0 / m[0], 1.0 / m[1], 1.0 / m[2]} : Vector3{});
     double largest = 0.0;
-    for (const Part& part : body.parts) largest = std::max(largest, radius_of(part.shape));
+    sizes.emplace_back();
+    for (const Part& part : body.parts) {
+      largest = std::max(largest, radius_of(part.shape));
+      sizes.back().push_back(size_of(part.shape));
+    }
     radius.push_back(largest);
   }
+  poses.resize(n);
   frames.resize(n);
   reach.assign(n, 0.0);
-  for (std::vector<Vector3>* values :
-       {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity, &travel, &way_velocity}) {
+  for (std::vector<Vector3>* values : {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity,
+                                       &travel, &shift, &way_velocity, &force_velocity}) {
     values->assign(n, Vector3{});
   }
   parent.resize(n);
@@ -375,13 +226,16 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   for (int look = 1;; ++look) {
     prepare_contacts(scene, h, state, parts);
     step_islands(h, settings, parts);
+    for (int more = 0; more < k_max_looks && add_contacts_on_way(scene, h, parts); ++more)
+      step_islands(h, settings, parts);
     if (is_within_reach(scene, parts) || look == k_max_looks) break;
     for (Index i = 0; i < scene.bodies.size(); ++i) {
       if (scene.bodies[i].kind != BodyKind::dynamic) continue;
-      parts.next_velocity[i] = parts.free_velocity[i];
+      parts.next_velocity[i] = parts.force_velocity[i] = parts.free_velocity[i];
       for (Index j = 0; j < 3; ++j) parts.travel[i][j] = h * parts.middle_velocity[i][j];
     }
   }
+  stop_at_impacts(scene, h, parts);
   IslandOutcome worst;
   int num_islands = 0;
   for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
@@ -411,7 +265,8 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   for (const StepContact& c : parts.contacts) {
     if (!c.is_listed || c.mode == ContactMode::open) continue;
     const Contact& k = c.contact;
-    state.contacts.push_back({k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.impulse[0], c.impulse[1]});
+    state.contacts.push_back(
+        {k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.sticks, c.impulse[0], c.impulse[1]});
   }
   if (report) {
     *report = {worst.status, worst.residual, num_islands, worst.factorisations, {}, std::move(report->contacts)};

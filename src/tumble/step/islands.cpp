@@ -1,0 +1,83 @@
+// Which bodies are joined by contacts.
+#include <algorithm>
+
+#include "tumble/step/step_parts.hpp"
+
+namespace tumble {
+namespace {
+
+using Index = std::size_t;
+using Parts = StepWorkspace::Parts;
+
+int root_of(std::vector<int>& parent, int body) {
+  while (parent[static_cast<Index>(body)] != body) {
+    int& next = parent[static_cast<Index>(body)];
+    next = parent[static_cast<Index>(next)];
+    body = next;
+  }
+  return body;
+}
+
+// Bodies joined by contacts, contacts listed island by island, both in the order of the contacts.
+void find_islands(Parts& parts) {
+  const auto body_of = [](const StepContact& c) { return c.rows.body_a >= 0 ? c.rows.body_a : c.rows.body_b; };
+  for (const StepContact& c : parts.contacts) {
+    if (!c.is_listed) continue;
+    for (const int body : {c.rows.body_a, c.rows.body_b}) {
+      if (body >= 0) parts.parent[static_cast<Index>(body)] = body;
+    }
+  }
+  for (const StepContact& c : parts.contacts) {
+    if (!c.is_listed || c.rows.body_a < 0 || c.rows.body_b < 0) continue;
+    const int a = root_of(parts.parent, c.rows.body_a), b = root_of(parts.parent, c.rows.body_b);
+    parts.parent[static_cast<Index>(std::max(a, b))] = std::min(a, b);
+  }
+  const auto island_of = [&](const StepContact& c) -> int& {
+    return parts.island_of[static_cast<Index>(root_of(parts.parent, body_of(c)))];
+  };
+  for (const StepContact& c : parts.contacts) {
+    if (c.is_listed) island_of(c) = -1;
+  }
+  parts.island_begin.assign(1, 0);
+  for (const StepContact& c : parts.contacts) {
+    if (!c.is_listed) continue;
+    int& island = island_of(c);
+    if (island < 0) {
+      island = static_cast<int>(parts.island_begin.size()) - 1;
+      parts.island_begin.push_back(0);
+    }
+    ++parts.island_begin[static_cast<Index>(island) + 1];
+  }
+  for (Index i = 1; i < parts.island_begin.size(); ++i) parts.island_begin[i] += parts.island_begin[i - 1];
+  const int num_listed = parts.island_begin.back();
+  parts.island_contact.resize(static_cast<Index>(num_listed));
+  for (Index i = parts.contacts.size(); i-- > 0;) {
+    if (!parts.contacts[i].is_listed) continue;
+    // Filled from the end, so that begin moves down to where the island begins.
+    int& next = parts.island_begin[static_cast<Index>(island_of(parts.contacts[i])) + 1];
+    parts.island_contact[static_cast<Index>(--next)] = static_cast<int>(i);
+  }
+  // Every begin has moved to the one before: move them back.
+  parts.island_begin.erase(parts.island_begin.begin());
+  parts.island_begin.push_back(num_listed);
+}
+
+}  // namespace
+
+void step_islands(double h, const StepSettings& settings, Parts& parts) {
+  do {
+    find_islands(parts);
+    for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
+      const auto begin = static_cast<Index>(parts.island_begin[i]), end = static_cast<Index>(parts.island_begin[i + 1]);
+      const IslandContacts contacts = IslandContacts(parts.island_contact).subspan(begin, end - begin);
+      bool is_new = false;
+      for (const int c : contacts) {
+        is_new = is_new || parts.contacts[static_cast<Index>(c)].is_new;
+        parts.contacts[static_cast<Index>(c)].is_new = false;
+      }
+      if (is_new) parts.outcome[static_cast<Index>(contacts.front())] = step_island(parts, contacts, h, settings);
+    }
+  } while (list_overrun(h, parts));
+}
+
+}  // namespace tumble

@@ -1,0 +1,345 @@
+// The contacts of a step. See docs/theory/step.md.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <tuple>
+
+#include "tumble/contact/contact_rows.hpp"
+#include "tumble/geometry/gap_rate.hpp"
+#include "tumble/geometry/passing_contact.hpp"
+#include "tumble/geometry/shape_contacts.hpp"
+#include "tumble/geometry/time_of_impact.hpp"
+#include "tumble/step/step_parts.hpp"
+
+namespace tumble {
+namespace {
+
+using Index = std::size_t;
+using Parts = StepWorkspace::Parts;
+
+constexpr double k_fast = 0.25;      // [-] of the radius of the smaller part: longer ways are long
+constexpr double k_touching = 1e-6;  // [-] of the same: parts that are nearer touch
+
+const Shape& shape_of(const Scene& scene, int body, int part) {
+  return scene.bodies[static_cast<Index>(body)].parts[static_cast<Index>(part)].shape;
+}
+
+bool is_dynamic(const Scene& scene, int body) {
+  return scene.bodies[static_cast<Index>(body)].kind == BodyKind::dynamic;
+}
+
+void add_offsets(const Scene& scene, const Parts& parts, StepContact& c) {
+  const Contact& contact = c.contact;
+  const auto a = static_cast<Index>(contact.body_a), b = static_cast<Index>(contact.body_b);
+  if (!is_dynamic(scene, contact.body_a)) {
+    c.rows.offset += dot(c.rows.normal_a, parts.velocity[a]);
+    c.rows.tangent_offset += dot(c.rows.tangent_a, parts.velocity[a]);
+    c.rows.body_a = -1;
+  }
+  if (!is_dynamic(scene, contact.body_b)) {
+    c.rows.offset += dot(c.rows.normal_b, parts.velocity[b]);
+    c.rows.tangent_offset += dot(c.rows.tangent_b, parts.velocity[b]);
+    c.rows.body_b = -1;
+  }
+  const Part& part_a = scene.bodies[a].parts[static_cast<Index>(contact.part_a)];
+  const Part& part_b = scene.bodies[b].parts[static_cast<Index>(contact.part_b)];
+  // Each runs along its own outward normal turned right: t for a, -t for b.
+  c.rows.tangent_offset -= part_a.surface_speed + part_b.surface_speed;
+}
+
+const ContactLaw& law_of(const Scene& scene, const Parts& parts, const Contact& contact) {
+  const auto material = [&](int body, int part) {
+    return static_cast<Index>(scene.bodies[static_cast<Index>(body)].parts[static_cast<Index>(part)].material);
+  };
+  return parts.laws[material(contact.body_a, contact.part_a) * scene.materials.size() +
+                    material(contact.body_b, contact.part_b)];
+}
+
+auto key_of(const auto& c) { return std::tie(c.body_a, c.body_b, c.part_a, c.part_b, c.feature); }
+
+bool is_of_pair(const Contact& c, const Contact& d) {
+  return std::tie(c.body_a, c.body_b, c.part_a, c.part_b) == std::tie(d.body_a, d.body_b, d.part_a, d.part_b);
+}
+
+// Contacts of one pair of sides share one line of friction: their tangents are those of the one that is nearer, whose
+// place is on a flat side if there is one. With lines that differ by the tilt of two sides, however small, rigid bodies
+// could jam on them with forces as large as the tilt is small; on one line they cannot, and where both contacts are
+// closed there is no tilt.
+void share_friction_line(StepContact& first, StepContact& second) {
+  constexpr double nearly_parallel = 0.99;  // cosine
+  const Contact &c = first.contact, &d = second.contact;
+  if (dot(c.normal, d.normal) < nearly_parallel) return;
+  const StepContact& nearer = c.gap <= d.gap ? first : second;
+  StepContact& other = c.gap <= d.gap ? second : first;
+  other.tangent = nearer.tangent;
+  other.rows.tangent_a = nearer.rows.tangent_a;
+  other.rows.tangent_b = nearer.rows.tangent_b;
+  // Where the line of its own normal meets that of the friction.
+  const Vector2 n = other.contact.normal, t = other.tangent;
+  const auto move = [&](Vector2& place, Vector2 on_line) {
+    place = place + cross(on_line - place, t) / cross(n, t) * n;
+  };
+  move(other.places.on_a, nearer.places.on_a);
+  move(other.places.on_b, nearer.places.on_b);
+}
+
+// [m] Gaps below are closed.
+double position_round_off(const Parts& parts, const Contact& contact) {
+  constexpr double round_off = 1e-13;  // [-] some hundred times that of one number: positions are sums over many steps
+  const auto size = [&](int body) {
+    const Vector2 p = parts.frames[static_cast<Index>(body)].position;
+    const double radius = parts.radius[static_cast<Index>(body)];
+    return std::max(std::abs(p.x), std::abs(p.y)) + (std::isfinite(radius) ? radius : 0.0);
+  };
+  return round_off * std::max(size(contact.body_a), size(contact.body_b));
+}
+
+// The smaller sizes of the two parts.
+PartSize size_of_pair(const Parts& parts, const Contact& pair) {
+  const PartSize& a = parts.sizes[static_cast<Index>(pair.body_a)][static_cast<Index>(pair.part_a)];
+  const PartSize& b = parts.sizes[static_cast<Index>(pair.body_b)][static_cast<Index>(pair.part_b)];
+  return {std::min(a.radius, b.radius), std::max(a.thickness, b.thickness)};
+}
+
+// Bodies apart that may go so far in the step, against their sizes, that where they are closest at its start tells
+// little about where, and whether, they meet.
+bool is_fast(const Parts& parts, std::span<const Contact> pair) {
+  const Contact& first = pair.front();
+  const double way = parts.reach[static_cast<Index>(first.body_a)] + parts.reach[static_cast<Index>(first.body_b)];
+  const PartSize size = size_of_pair(parts, first);
+  if (way <= k_fast * size.radius && way <= size.thickness) return false;
+  return std::all_of(pair.begin(), pair.end(), [&](const Contact& c) { return c.gap > k_touching * size.radius; });
+}
+
+// Law, places and rows of the contact, of bodies whose frames are at these positions.
+void set_geometry(const Scene& scene, const Parts& parts, StepContact& c, Vector2 centre_a, Vector2 centre_b) {
+  c.law = &law_of(scene, parts, c.contact);
+  c.gap = c.contact.gap > position_round_off(parts, c.contact) ? c.contact.gap : 0.0;
+  c.tangent = turned_right(c.contact.normal);
+  c.places = contact_places(c.contact, c.gap > 0.0);
+  c.rows = contact_rows(c.contact, c.places, centre_a, centre_b);
+}
+
+// How the gap changes in the step.
+void set_motion(const Parts& parts, double h, StepContact& c) {
+  const auto motion_of = [&](int body) {
+    const auto b = static_cast<Index>(body);
+    return Motion{parts.frames[b].position, parts.middle_velocity[b]};
+  };
+  c.speed = contact_velocity(c.rows, parts.velocity);
+  c.free_speed = contact_velocity(c.rows, parts.free_velocity);
+  if (c.is_ahead) return;
+  c.gap_at_start = c.contact.gap;
+  c.bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
+}
+
+// What the contact did in the last step. `memory` is the first of its place or behind.
+void recall(const ContactMemory* memory, double h, StepContact& c) {
+  if (memory) {
+    c.mode = memory->mode;
+    c.was_closed = c.mode != ContactMode::open;
+    c.impulse = {memory->normal_impulse, memory->friction_impulse};
+    c.has_stuck = memory->has_stuck;
+  } else {
+    c.mode = h * c.free_speed[0] + c.gap + c.bend < 0.0 ? ContactMode::stick : ContactMode::open;
+    c.has_stuck = c.speed[1] == 0.0;
+  }
+  // Other contacts may push bodies together: those that they reach are listed then.
+  c.is_listed = c.is_new =
+      memory || c.gap + c.bend + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
+}
+
+std::optional<Impact> find_impact(const Scene& scene, double h, const Parts& parts, const Contact& pair,
+                                  const std::vector<Vector3>& velocity) {
+  const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
+  const Shape& shape_a = shape_of(scene, pair.body_a, pair.part_a);
+  const Shape& shape_b = shape_of(scene, pair.body_b, pair.part_b);
+  const double distance = k_touching * size_of_pair(parts, pair).radius;
+  return time_of_impact(shape_a, parts.poses[a], velocity[a], shape_b, parts.poses[b], velocity[b], h, distance);
+}
+
+// The contact in place of those of two polygons that would close in the step, where by their own motion, forces apart,
+// they pass each other.
+std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& parts, std::span<const Contact> pair) {
+  constexpr double early = 1.25;        // [-] of a step: forces may speed them up
+  constexpr double step_height = 1e-3;  // [-] of the way, and of the size: lower steps are none
+  constexpr double tilt = 0.01;         // [-] of the way: they are on it along the side
+  const Contact& nearest = *std::min_element(pair.begin(), pair.end(), [](auto& c, auto& d) { return c.gap < d.gap; });
+  const auto a = static_cast<Index>(nearest.body_a), b = static_cast<Index>(nearest.body_b);
+  if (!(nearest.gap > 0.0)) return std::nullopt;
+  const auto velocity_at = [&](Index body, Vector2 point) {
+    const Vector3& v = parts.velocity[body];
+    return Vector2{v[0], v[1]} + v[2] * turned_left(point - parts.frames[body].position);
+  };
+  const Vector2 way = early * h * (velocity_at(b, nearest.point_b) - velocity_at(a, nearest.point_a));
+  if (!(nearest.gap + dot(nearest.normal, way) < 0.0)) return std::nullopt;
+  const double tolerance = step_height * std::min(length(way), size_of_pair(parts, nearest).radius);
+  const auto better = passing_contact(shape_of(scene, nearest.body_a, nearest.part_a), parts.frames[a],
+                                      shape_of(scene, nearest.body_b, nearest.part_b), parts.frames[b], way, tolerance);
+  if (!better || better->gap + dot(better->normal, way) < -tilt * length(way)) return std::nullopt;
+  return Contact{*better, nearest.body_a, nearest.body_b, nearest.part_a, nearest.part_b};
+}
+
+// The contacts of two parts at a time of the step, their bodies moving with these velocities.
+void find_contacts_at(const Scene& scene, Parts& parts, const Contact& pair, const std::vector<Vector3>& velocity,
+                      double time, double reach) {
+  const auto frame_at = [&](int body) {
+    const auto b = static_cast<Index>(body);
+    const Vector3& v = velocity[b];
+    return frame_of({parts.poses[b].position + time * Vector2{v[0], v[1]}, parts.poses[b].angle + time * v[2]});
+  };
+  parts.points.clear();
+  find_contacts(shape_of(scene, pair.body_a, pair.part_a), frame_at(pair.body_a),
+                shape_of(scene, pair.body_b, pair.part_b), frame_at(pair.body_b), reach, parts.points);
+}
+
+// Appends the contacts that two parts have where they first meet when their bodies move with these velocities. The gap
+// is the way that is left to there, along the normal that they will have.
+void append_contacts_ahead(const Scene& scene, double h, Parts& parts, const Contact& pair,
+                           const std::vector<Vector3>& velocity, std::vector<StepContact>& contacts) {
+  const auto impact = find_impact(scene, h, parts, pair, velocity);
+  if (!impact) return;
+  const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
+  find_contacts_at(scene, parts, pair, velocity, impact->time, parts.reach[a] + parts.reach[b]);
+  const auto position_of = [&](Index body) {
+    return parts.poses[body].position + impact->time * Vector2{velocity[body][0], velocity[body][1]};
+  };
+  const Index first = contacts.size();
+  for (const ContactPoint& point : parts.points) {
+    StepContact& c = contacts.emplace_back();
+    c.contact = {point, pair.body_a, pair.body_b, pair.part_a, pair.part_b};
+    c.is_ahead = true;
+    set_geometry(scene, parts, c, position_of(a), position_of(b));
+    if (contacts.size() > first + 1) share_friction_line(contacts.end()[-2], c);
+  }
+  for (Index i = first; i < contacts.size(); ++i) {
+    StepContact& c = contacts[i];
+    add_offsets(scene, parts, c);
+    c.gap_at_start = c.contact.gap - impact->time * contact_velocity(c.rows, velocity)[0];
+    c.gap = std::max(c.gap_at_start, 0.0);
+  }
+}
+
+// Bodies that turn fast run into each other although the places that touched first are held apart.
+bool is_deep_at_end(const Scene& scene, double h, Parts& parts, const Contact& pair) {
+  constexpr double deep = 0.01;  // [-] of the radius
+  find_contacts_at(scene, parts, pair, parts.way_velocity, h, 0.0);
+  const double depth = deep * size_of_pair(parts, pair).radius;
+  return std::any_of(parts.points.begin(), parts.points.end(), [&](const auto& point) { return point.gap < -depth; });
+}
+
+// The velocities that take bodies where they were found to go.
+void set_way_velocity(const Scene& scene, double h, Parts& parts) {
+  for (Index i = 0; i < scene.bodies.size(); ++i) {
+    for (Index j = 0; j < 3; ++j) {
+      parts.way_velocity[i][j] =
+          scene.bodies[i].kind == BodyKind::dynamic ? parts.travel[i][j] / h : parts.velocity[i][j];
+    }
+  }
+}
+
+bool has_listed(const Parts& parts, const Contact& pair) {
+  return std::any_of(parts.contacts.begin(), parts.contacts.end(),
+                     [&](const StepContact& c) { return c.is_listed && is_of_pair(c.contact, pair); });
+}
+
+}  // namespace
+
+// Two round surfaces, the more so two corners, turn their normal as they pass: past half their distance from centre to
+// centre the first two derivatives of the gap no longer tell what it will be.
+double bend_of(const Contact& contact, const Motion& a, const Motion& b, double h) {
+  const double distance = contact.gap + contact.radius_a + contact.radius_b;
+  if (std::isfinite(distance)) {
+    const auto velocity_at = [](const Motion& body, Vector2 point) {
+      return Vector2{body.velocity[0], body.velocity[1]} + body.velocity[2] * turned_left(point - body.position);
+    };
+    const double slip = cross(contact.normal, velocity_at(b, contact.point_b) - velocity_at(a, contact.point_a));
+    if (!(h * std::abs(slip) < 0.5 * distance)) return 0.0;
+  }
+  return 0.5 * h * h * gap_curvature(contact, a, b);
+}
+
+void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
+  const std::vector<Contact>& found = parts.finder.find(parts.frames, parts.reach);
+  parts.contacts.clear();
+  parts.fast_pairs.clear();
+  for (Index begin = 0, end = 0; begin < found.size(); begin = end) {
+    while (end < found.size() && is_of_pair(found[end], found[begin])) ++end;
+    const std::span<const Contact> pair = std::span(found).subspan(begin, end - begin);
+    const auto passing = find_passing(scene, h, parts, pair);
+    if (!passing && is_fast(parts, pair)) {
+      parts.fast_pairs.push_back(pair.front());
+      append_contacts_ahead(scene, h, parts, pair.front(), parts.middle_velocity, parts.contacts);
+      continue;
+    }
+    for (const Contact& contact : passing ? std::span(&*passing, 1) : pair) {
+      StepContact& c = parts.contacts.emplace_back();
+      c.contact = contact;
+      set_geometry(scene, parts, c, parts.frames[static_cast<Index>(contact.body_a)].position,
+                   parts.frames[static_cast<Index>(contact.body_b)].position);
+      if (!passing && &contact != &pair.front()) share_friction_line(parts.contacts.end()[-2], c);
+    }
+  }
+  Index next = 0;
+  for (StepContact& c : parts.contacts) {
+    if (!c.is_ahead) add_offsets(scene, parts, c);
+    set_motion(parts, h, c);
+    while (next < state.contacts.size() && key_of(state.contacts[next]) < key_of(c.contact)) ++next;
+    const bool is_known = next < state.contacts.size() && key_of(state.contacts[next]) == key_of(c.contact);
+    recall(is_known ? &state.contacts[next] : nullptr, h, c);
+  }
+  parts.outcome.assign(parts.contacts.size(), {});
+}
+
+bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
+  set_way_velocity(scene, h, parts);
+  std::vector<StepContact> added;
+  for (const Contact& pair : parts.fast_pairs) {
+    if (!has_listed(parts, pair)) append_contacts_ahead(scene, h, parts, pair, parts.way_velocity, added);
+  }
+  if (added.empty()) return false;
+  std::erase_if(parts.contacts, [&](const StepContact& c) {
+    return std::any_of(added.begin(), added.end(), [&](const auto& d) { return is_of_pair(c.contact, d.contact); });
+  });
+  for (StepContact& c : added) {
+    set_motion(parts, h, c);
+    recall(nullptr, h, c);
+    c.is_listed = true;
+  }
+  parts.contacts.insert(parts.contacts.end(), added.begin(), added.end());
+  std::sort(parts.contacts.begin(), parts.contacts.end(),
+            [](const auto& c, const auto& d) { return key_of(c.contact) < key_of(d.contact); });
+  for (StepContact& c : parts.contacts) c.is_new = c.is_listed;
+  parts.outcome.assign(parts.contacts.size(), {});
+  return true;
+}
+
+void stop_at_impacts(const Scene& scene, double h, Parts& parts) {
+  for (const Contact& pair : parts.fast_pairs) {
+    set_way_velocity(scene, h, parts);
+    if (has_listed(parts, pair) && !is_deep_at_end(scene, h, parts, pair)) continue;
+    const auto impact = find_impact(scene, h, parts, pair, parts.way_velocity);
+    if (!impact) continue;
+    for (const int body : {pair.body_a, pair.body_b}) {
+      if (!is_dynamic(scene, body)) continue;
+      for (double& way : parts.travel[static_cast<Index>(body)]) way *= impact->time / h;
+    }
+  }
+}
+
+bool list_overrun(double h, Parts& parts) {
+  constexpr double round_off = 1e-12;  // [-] of the way
+  bool has_new = false;
+  for (StepContact& c : parts.contacts) {
+    if (c.is_listed) continue;
+    double gap = c.gap + c.bend + h * c.rows.offset;
+    if (c.rows.body_a >= 0) gap += dot(c.rows.normal_a, parts.travel[static_cast<Index>(c.rows.body_a)]);
+    if (c.rows.body_b >= 0) gap += dot(c.rows.normal_b, parts.travel[static_cast<Index>(c.rows.body_b)]);
+    if (gap >= -round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])))) continue;
+    c.is_listed = c.is_new = has_new = true;
+  }
+  return has_new;
+}
+
+}  // namespace tumble
