@@ -13,7 +13,7 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_accepted_residual = 1e-10;
-constexpr double k_rest_rounding = 1e-15;  // [-] what is left is round-off: nothing to improve
+constexpr double k_rest_rounding = 2e-16;  // [-] what is left is round-off: nothing to improve
 constexpr int k_max_path_steps = 20;       // and 2 per contact
 constexpr int k_num_sweeps = 10;
 constexpr int k_max_soft_rounds = 8;

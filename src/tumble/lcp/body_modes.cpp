@@ -9,8 +9,8 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_ridge = 1e-10;          // [-] of the diagonal of A
-constexpr double k_round_off = 1e-13;      // relative: contradictions below are not real
-constexpr double k_rounding_share = 1e-4;  // an accepted residual of 1e-10 is then some 50 times the rounding of terms
+constexpr double k_round_off = 1e-14;      // relative: contradictions below are not real
+constexpr double k_rounding_share = 1e-5;  // an accepted residual of 1e-10 is then some 5 times the rounding of terms
 constexpr int k_max_corrections = 12;      // each gains the digits that ridge over the smallest eigenvalue of A leaves
 
 double slip_direction(ContactMode mode) {
@@ -257,7 +257,7 @@ double BodyModes::correct() {
     add(c.body_a, c.normal_a, c.tangent_a);
     add(c.body_b, c.normal_b, c.tangent_b);
   }
-  if (largest <= k_round_off / 1000.0) return largest;
+  if (largest <= k_round_off / 100.0) return largest;
   equations_.solve(step_);
   for (Index i = 0; i < modes.size(); ++i) {
     if (modes[i] == ContactMode::open) continue;
@@ -310,7 +310,7 @@ bool BodyModes::iterate(int max_rounds) {
       find_contact_velocities();
       const double error = correct();
       if (!std::isfinite(error)) return false;
-      if (error <= k_round_off / 1000.0 || (count >= 2 && error > 0.5 * before)) break;
+      if (error <= k_round_off / 100.0 || (count >= 2 && error > 0.5 * before)) break;
       before = error;
     }
     find_velocities();

@@ -56,7 +56,7 @@ class BodyModes {
 
   // How far impulses and velocities are from the contact laws, free of units: the largest of
   //   |min(A_nn f_n, u_n)| / s,   |A_tt (f_t - the point of the cone |f_t| <= mu f_n next to f_t - u_t / A_tt)| / s,
-  // s the largest speed at a contact before the impulses, and 1e-4 of the sizes of the terms that u is a sum of: where
+  // s the largest speed at a contact before the impulses, and 1e-5 of the sizes of the terms that u is a sum of: where
   // large impulses cancel, their rounding is forgiven, but no more.
   double residual();
 

@@ -165,9 +165,10 @@ std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& p
   constexpr double early = 1.25;        // [-] of a step: forces may speed them up
   constexpr double step_height = 1e-3;  // [-] of the way, and of the size: lower steps are none
   constexpr double tilt = 0.01;         // [-] of the way: they are on it along the side
+  constexpr double same_side = 0.99;    // cosine
   const Contact& nearest = *std::min_element(pair.begin(), pair.end(), [](auto& c, auto& d) { return c.gap < d.gap; });
   const auto a = static_cast<Index>(nearest.body_a), b = static_cast<Index>(nearest.body_b);
-  if (!(nearest.gap > 0.0)) return std::nullopt;
+  if (!(nearest.gap > position_round_off(parts, nearest))) return std::nullopt;
   const auto velocity_at = [&](Index body, Vector2 point) {
     const Vector3& v = parts.velocity[body];
     return Vector2{v[0], v[1]} + v[2] * turned_left(point - parts.frames[body].position);
@@ -178,6 +179,7 @@ std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& p
   const auto better = passing_contact(shape_of(scene, nearest.body_a, nearest.part_a), parts.frames[a],
                                       shape_of(scene, nearest.body_b, nearest.part_b), parts.frames[b], way, tolerance);
   if (!better || better->gap + dot(better->normal, way) < -tilt * length(way)) return std::nullopt;
+  if (dot(better->normal, nearest.normal) > same_side) return std::nullopt;  // and it may have both ends of the side
   return Contact{*better, nearest.body_a, nearest.body_b, nearest.part_a, nearest.part_b};
 }
 
