@@ -40,8 +40,7 @@ Vector2 impulse_between(const StepReport& report, int body_a, int body_b) {
   Vector2 sum;
   for (const ContactRecord& record : report.contacts) {
     if (record.contact.body_a != body_a || record.contact.body_b != body_b) continue;
-    const Vector2 n = record.contact.normal;
-    sum = sum + record.normal_impulse * n + record.friction_impulse * turned_right(n);
+    sum = sum + record.normal_impulse * record.contact.normal + record.friction_impulse * record.tangent;
   }
   return sum;
 }

@@ -11,7 +11,7 @@ namespace tumble::physics {
 namespace {
 
 constexpr double k_step_size = 1e-3;
-constexpr const char* k_two_impacts = "two impacts in one step lose or gain energy";
+constexpr const char* k_two_impacts = "bounces take the speed at touch but act along the normal before";
 constexpr double k_accepted_drift = 1e-3;  // [-] over 10^4 bounces
 
 struct EnergyRun {

@@ -12,8 +12,7 @@ namespace tumble::physics {
 // is of it.
 
 // For each body, mass times change of velocity is the sum of the impulses of contacts, gravity, wrenches and damping,
-// to round-off; so is the change of angular momentum, where the arm of a contact with a gap is that of any point in the
-// gap.
+// and so is the change of angular momentum: to round-off.
 void check_momentum(const Scene& scene, double step_size, const State& before, const State& after,
                     const StepReport& report, std::vector<std::string>& broken);
 

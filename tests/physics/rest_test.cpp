@@ -149,14 +149,14 @@ std::vector<Structure> structures() {
                                    dynamic(disc(R), 0.5, {{-R, R}, 0.0}),
                                    dynamic(disc(R), 0.5, {{R, R}, 0.0}),
                                    dynamic(disc(R), 0.5, {{0.0, R + std::sqrt(3.0) * R}, 0.0})};
-  return {{"pyramid", pyramid}, {"lintel", lintel}, {"ladder", ladder}, {"three discs", discs}};
-}
-
-Structure stack_on_a_slope() {
   const double angle = radians(20.0);
-  return {"two squares on a slope",
-          {fixed(slope(angle)), dynamic(square(0.2), 1.0, on_slope(angle, 0.0, 0.1)),
-           dynamic(square(0.2), 1.0, on_slope(angle, 0.02, 0.3))}};
+  const std::vector<Body> squares = {fixed(slope(angle)), dynamic(square(0.2), 1.0, on_slope(angle, 0.0, 0.1)),
+                                     dynamic(square(0.2), 1.0, on_slope(angle, 0.02, 0.3))};
+  return {{"pyramid", pyramid},
+          {"lintel", lintel},
+          {"ladder", ladder},
+          {"three discs", discs},
+          {"squares on a slope", squares}};
 }
 
 void expect_to_stand(const Structure& structure, ContactLaw contact_law) {
@@ -173,12 +173,6 @@ TEST(Rest, StructuresStandAtAllStepSizes) {
     expect_to_stand(structure, law(0.5));
     expect_to_stand(structure, law(0.5, 0.5));
   }
-  expect_to_stand(stack_on_a_slope(), law(0.5));
-}
-
-TEST(Rest, StackStandsOnASlopeWithRestitution) {
-  GTEST_SKIP() << "bodies that rest on each other bounce by round-off, and creep";
-  expect_to_stand(stack_on_a_slope(), law(0.5, 0.5));
 }
 
 // Kinetic energy below 1e-12 J to the end, 0.3 s after the last impact, and the time v / (friction g) that the body
@@ -204,8 +198,6 @@ TEST(Rest, DroppedPolygonsSettle) {
     for (const double friction : {0.1, 0.3, 0.8}) {
       for (const double angle : {0.0, 0.1, 0.5236, 0.7, 2.0}) {
         for (const Lying& lying : lying_shapes()) {
-          // Not met: it rattles on two corners for ever.
-          if (lying.name == std::string("hexagon") && restitution == 0.7 && friction == 0.8) continue;
           const Scene scene =
               scene_of(law(friction, restitution),
                        {fixed(level()), dynamic(lying.shape, 0.3, {{0.0, 0.8}, angle}, {0.3, -0.2, 0.0})});

@@ -43,10 +43,10 @@ struct Defect {
   const char* what;
   std::vector<std::string> scenes;
 };
-const Defect k_impulses = {
-    "impulses of a pair of sides do not act along the tangents recorded, or have the sign of round-off",
-    {"billiard", "compound", "dominoes", "funnel", "galton_board", "wall_and_ball", "pile"}};
-const Defect k_depth = {"overlap is not taken back", {"dominoes", "ellipse_drop", "wall_and_ball", "pile"}};
+const Defect k_records = {"a contact without an impulse is said to stick, or its place is that where fast bodies meet",
+                          {"billiard", "compound", "funnel"}};
+const Defect k_late = {"a contact is found a step late", {"dominoes"}};
+const Defect k_unsolved = {"a step is not solved", {"pile"}};
 
 bool shows(const Defect& defect, const std::string& scene) {
   return std::find(defect.scenes.begin(), defect.scenes.end(), scene) != defect.scenes.end();
@@ -55,7 +55,9 @@ bool shows(const Defect& defect, const std::string& scene) {
 class NamedScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(NamedScene, KeepsTheLaws) {
-  if (shows(k_impulses, GetParam())) GTEST_SKIP() << k_impulses.what;
+  for (const Defect* defect : {&k_records, &k_unsolved}) {
+    if (shows(*defect, GetParam())) GTEST_SKIP() << defect->what;
+  }
   const Scene scene = named_scene(GetParam());
   ASSERT_NO_THROW(expect_laws(scene, scene.step_size, scene.duration, GetParam()));
 }
@@ -64,7 +66,9 @@ TEST_P(NamedScene, KeepsTheLaws) {
 // ms and a radius of 5 cm.
 TEST_P(NamedScene, DoesNotSink) {
   constexpr double accepted_depth = 1e-4;  // [m]
-  if (shows(k_depth, GetParam())) GTEST_SKIP() << k_depth.what;
+  for (const Defect* defect : {&k_late, &k_unsolved}) {
+    if (shows(*defect, GetParam())) GTEST_SKIP() << defect->what;
+  }
   const Scene scene = named_scene(GetParam());
   double depth = 0.0;
   ASSERT_NO_THROW(first_faults(scene, scene.step_size, scene.duration, &depth));
@@ -94,7 +98,7 @@ Scene random_scene(problems::Random& random, double friction, double restitution
 }
 
 TEST(RandomScenes, KeepTheLaws) {
-  GTEST_SKIP() << k_impulses.what;
+  GTEST_SKIP() << k_records.what;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     problems::Random random(seed);
     const double friction = random.uniform(0.0, 1.0), restitution = seed % 2 == 0 ? 0.0 : random.uniform(0.1, 1.0);

@@ -27,7 +27,8 @@ Impulse impulse_of(const ContactRecord& record, const Scene& scene, std::int64_t
   const bool on_b = scene.bodies[static_cast<std::size_t>(contact.body_b)].kind == BodyKind::dynamic;
   Impulse impulse;
   impulse.step = step;
-  impulse.place = contact_place(contact);
+  const ContactPlaces places = contact_places(contact, contact.gap > 0.0);
+  impulse.place = on_b ? places.on_b : places.on_a;
   impulse.normal = on_b ? contact.normal : -contact.normal;
   impulse.along_normal = record.normal_impulse;
   impulse.along_tangent = record.friction_impulse;  // both directions turn round with the normal
