@@ -16,6 +16,8 @@ constexpr double k_accepted_residual = 1e-10;
 constexpr double k_rest_rounding = 2e-16;  // [-] what is left is round-off: nothing to improve
 constexpr int k_max_path_steps = 20;       // and 2 per contact
 constexpr int k_num_sweeps = 10;
+constexpr int k_num_batches = 10;
+constexpr int k_sweeps_per_batch = 20;
 constexpr int k_max_soft_rounds = 8;
 constexpr double k_hard_ridge = 1e-4;        // [-] as hard as rigid for most
 constexpr int k_max_rounds = 8;              // where Newton gets there, it does so in a few
@@ -57,6 +59,20 @@ struct IslandSolver::Parts {
       if (run()) return true;
       modes.modes = soft_modes;
       modes.impulses = soft_impulses;
+    }
+    return false;
+  }
+
+  // Sweeps get close, from anywhere, but are slow to arrive: Newton's method from where they are, again and again.
+  bool sweep_and_run() {
+    for (int batch = 0; batch < k_num_batches; ++batch) {
+      modes.sweep(k_sweeps_per_batch);
+      if (offer()) return true;
+      const std::vector<ContactMode> swept_modes = modes.modes;
+      const std::vector<double> swept_impulses = modes.impulses;
+      if (run()) return true;
+      modes.modes = swept_modes;
+      modes.impulses = swept_impulses;
     }
     return false;
   }
@@ -110,7 +126,8 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
   } else if (search.rounding() > k_rest_rounding && !parts_->run()) {
     search.modes = modes;
     search.impulses = parts_->start_impulses;
-    if (!parts_->harden() && !parts_->offer() && parts_->best_residual > k_accepted_residual) {
+    if (!parts_->sweep_and_run() && !parts_->harden() && !parts_->offer() &&
+        parts_->best_residual > k_accepted_residual) {
       status = LcpStatus::iteration_limit;
       if (system.contacts.size() <= k_max_dense_contacts) status = parts_->search_dense(system);
     }
