@@ -56,12 +56,12 @@ t [s],kinetic [J],potential [J],external_work [J],friction_loss [J],impact_loss 
 # residual = 0
 # complete = yes
 # created_energy = 0 J
-step,t [s],body_a,body_b,part_a,part_b,feature,x_a [m],y_a [m],x_b [m],y_b [m],normal_x,normal_y,gap [m],)"
+step,t [s],body_a,body_b,part_a,part_b,feature,mode,x_a [m],y_a [m],x_b [m],y_b [m],normal_x,normal_y,gap [m],)"
             R"(normal_velocity [m/s],tangential_velocity [m/s],normal_velocity_after [m/s],)"
-            R"(tangential_velocity_after [m/s],normal_impulse [N s],friction_impulse [N s],mode,restitution,)"
+            R"(tangential_velocity_after [m/s],normal_impulse [N s],friction_impulse [N s],restitution,)"
             R"(law_friction,law_static_friction,law_restitution
-1,0.125,floor,"the ""ball"", red",0,0,65536,0,0,0,0,0,1,0,0,0,0,0,1,0.5,stick,0,0.5,0.5,0
-2,0.25,floor,"the ""ball"", red",0,0,65536,0,0,0,0,0,1,0,0,0,0,0,1,0.5,stick,0,0.5,0.5,0
+1,0.125,floor,"the ""ball"", red",0,0,65536,stick,0,0,0,0,0,1,0,0,0,0,0,1,0.5,0,0.5,0.5,0
+2,0.25,floor,"the ""ball"", red",0,0,65536,stick,0,0,0,0,0,1,0,0,0,0,0,1,0.5,0,0.5,0.5,0
 )");
 }
 

@@ -485,6 +485,17 @@ def test_a_trajectory_is_saved_as_tables(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "start"), [("run.png", b"\x89PNG"), ("run.svg", b"<?xml"), ("run.gif", b"GIF89a"), ("run.mp4", b"\0\0\0")]
+)
+def test_a_trajectory_is_saved_as_a_picture(tmp_path: Path, name: str, start: bytes) -> None:
+    trajectory = simulate(load("dominoes"), duration=0.3, contacts=False)
+    trajectory.save(tmp_path / name, width=320, height=200, speed=0.5)
+    assert (tmp_path / name).read_bytes().startswith(start)
+    trajectory.save(tmp_path / "other", format=name.removeprefix("run."), width=320, height=200, speed=0.5)
+    assert (tmp_path / "other").read_bytes() == (tmp_path / name).read_bytes()
+
+
+@pytest.mark.parametrize(
     ("name", "settings", "error", "message"),
     [
         ("run.xyz", {}, ValueError, "run.xyz: the name must end in ."),

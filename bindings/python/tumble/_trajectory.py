@@ -209,9 +209,10 @@ class Trajectory:
         Parameters
         ----------
         path : path
-            Its ending says what: ``.csv`` bodies and energies over time, ``.contacts.csv`` contacts over time.
+            Its ending says what: ``.gif`` and ``.mp4`` (with ffmpeg) a film in real time, ``.png`` and ``.svg`` poses and
+            paths in one picture, ``.csv`` bodies and energies over time, ``.contacts.csv`` contacts over time.
         format : str, optional
-            "csv" or "contacts.csv", whatever the ending.
+            Such an ending without its first dot, whatever the path ends in.
         width, height : int
             Of a picture [px], 160 to 4096; chosen for you if left out.
         speed : float

@@ -13,12 +13,13 @@
 #include <hdf5.h>
 
 #include "tumble/output/record_fields.hpp"
+#include "tumble/output/trajectory_fields.hpp"
 
 namespace tumble::output {
 namespace {
 
 constexpr std::size_t k_image_growth = 1 << 20;
-constexpr hsize_t k_chunk_columns = 4096;
+constexpr hsize_t k_chunk_values = 16384;
 constexpr unsigned k_level = 4;
 
 // The serial library keeps global tables: one thread at a time.
@@ -77,7 +78,7 @@ Handle made(hid_t id, Handle::Close close, std::string_view action) {
 
 Handle text_type(std::size_t width) {
   Handle type = made(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-  require(H5Tset_size(type, width) >= 0, "size a text type");
+  require(H5Tset_size(type, width) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0, "set up a text type");
   return type;
 }
 
@@ -97,7 +98,11 @@ Handle create_dataset(hid_t file, const Field& field, hid_t type) {
   const Handle settings = made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make dataset settings");
   require(H5Pset_obj_track_times(settings, false) >= 0, "switch off time stamps");
   if (!sizes.empty()) {
-    sizes.back() = std::min(sizes.back(), k_chunk_columns);
+    hsize_t left = k_chunk_values;  // as many of the last indices as fit
+    for (auto size = sizes.rbegin(); size != sizes.rend(); ++size) {
+      *size = std::clamp<hsize_t>(*size, 1, left);
+      left /= *size;
+    }
     require(H5Pset_chunk(settings, static_cast<int>(sizes.size()), sizes.data()) >= 0 &&
                 H5Pset_shuffle(settings) >= 0 && H5Pset_deflate(settings, k_level) >= 0,
             "set chunks and compression");
@@ -112,6 +117,9 @@ struct DatasetWriter {
   }
   Handle operator()(const std::vector<std::int32_t>& values) const {
     return write(H5T_STD_I32LE, H5T_NATIVE_INT32, values.data());
+  }
+  Handle operator()(const std::vector<std::int64_t>& values) const {
+    return write(H5T_STD_I64LE, H5T_NATIVE_INT64, values.data());
   }
   Handle operator()(const std::vector<std::string>& values) const {
     std::size_t width = 1;
@@ -140,6 +148,24 @@ Handle memory_settings() {
   Handle settings = made(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make file settings");
   require(H5Pset_fapl_core(settings, k_image_growth, false) >= 0, "set a file in memory");
   return settings;
+}
+
+std::string to_hdf5(const std::vector<Field>& fields) {
+  const std::lock_guard lock(library_mutex());
+  const Silence silence;
+  const Handle settings = memory_settings();
+  const Handle file =
+      made(H5Fcreate("record.h5", H5F_ACC_TRUNC, H5P_DEFAULT, settings), H5Fclose, "make a file in memory");
+  for (const Field& field : fields) {
+    const Handle dataset = std::visit(DatasetWriter{file, field}, field.values);
+    if (!field.unit.empty()) write_units(dataset, field.unit);
+  }
+  require(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0, "complete the file");
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  require(size > 0, "measure the file");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  require(H5Fget_file_image(file, bytes.data(), bytes.size()) == size, "hand out the file");
+  return bytes;
 }
 
 // ---- Reading ----
@@ -203,24 +229,9 @@ void check_hdf5() {}
 
 bool has_hdf5() { return true; }
 
-std::string to_hdf5(const drop::Record& record) {
-  const std::vector<Field> fields = to_fields(record);
-  const std::lock_guard lock(library_mutex());
-  const Silence silence;
-  const Handle settings = memory_settings();
-  const Handle file =
-      made(H5Fcreate("record.h5", H5F_ACC_TRUNC, H5P_DEFAULT, settings), H5Fclose, "make a file in memory");
-  for (const Field& field : fields) {
-    const Handle dataset = std::visit(DatasetWriter{file, field}, field.values);
-    if (!field.unit.empty()) write_units(dataset, field.unit);
-  }
-  require(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0, "complete the file");
-  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-  require(size > 0, "measure the file");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  require(H5Fget_file_image(file, bytes.data(), bytes.size()) == size, "hand out the file");
-  return bytes;
-}
+std::string to_hdf5(const drop::Record& record) { return to_hdf5(to_fields(record)); }
+
+std::string to_hdf5(const Trajectory& trajectory) { return to_hdf5(to_fields(trajectory)); }
 
 drop::Record parse_record_hdf5(std::string_view bytes, const std::string& name) {
   std::map<std::string, NumberArray> fields;

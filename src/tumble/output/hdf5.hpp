@@ -1,12 +1,13 @@
-// A record as an HDF5 file: the arrays of record_fields.hpp as datasets at the root, each with its units as
-// attribute. A build without HDF5 has these functions too; they throw std::runtime_error "this build has no
-// HDF5".
+// Records and trajectories as HDF5 files: the arrays of record_fields.hpp and trajectory_fields.hpp as datasets at the
+// root, each with its units as attribute. A build without HDF5 has these functions too; they throw std::runtime_error
+// "this build has no HDF5".
 #pragma once
 
 #include <string>
 #include <string_view>
 
 #include "tumble/drop/drop.hpp"
+#include "tumble/trajectory/trajectory.hpp"
 
 namespace tumble::output {
 
@@ -15,8 +16,9 @@ bool has_hdf5();
 // Throws the error of a build without HDF5 if this is one.
 void check_hdf5();
 
-// The bytes of the file. They depend on the record alone: no times are kept.
+// The bytes of the file. They depend on the record or trajectory alone: no times are kept.
 std::string to_hdf5(const drop::Record& record);
+std::string to_hdf5(const Trajectory& trajectory);
 
 // Reads what `to_hdf5` wrote, to the same bits; needs and completes what from_fields needs and completes.
 // Throws std::invalid_argument "name: dataset: what, what is allowed".

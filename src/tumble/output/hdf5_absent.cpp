@@ -17,6 +17,7 @@ void check_hdf5() { refuse(); }
 bool has_hdf5() { return false; }
 
 std::string to_hdf5(const drop::Record&) { refuse(); }
+std::string to_hdf5(const Trajectory&) { refuse(); }
 
 drop::Record parse_record_hdf5(std::string_view, const std::string&) { refuse(); }
 

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "tumble/output/record_fields.hpp"
+#include "tumble/output/trajectory_fields.hpp"
 #include "tumble/output/zip.hpp"
 
 namespace tumble::output {
@@ -50,33 +51,60 @@ std::string npy_header(const std::string& descr, const std::vector<std::size_t>&
   return header + dictionary;
 }
 
+// The characters of UTF-8 text without faults.
+std::vector<std::uint32_t> characters(const std::string& text) {
+  std::vector<std::uint32_t> points;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xc0u) == 0x80u) {  // one more of the six bits
+      points.back() = points.back() << 6u | (byte & 0x3fu);
+    } else {
+      points.push_back(byte < 0x80u ? byte : byte & (byte < 0xe0u ? 0x1fu : byte < 0xf0u ? 0x0fu : 0x07u));
+    }
+  }
+  return points;
+}
+
 struct NpyBody {
-  std::string operator()(const std::vector<double>& values) const {
-    std::string bytes = npy_header("<f8", shape);
-    bytes.reserve(bytes.size() + 8 * values.size());
-    for (const double value : values) put_value<double, std::uint64_t>(bytes, value);
-    return bytes;
-  }
+  std::string operator()(const std::vector<double>& values) const { return numbers<std::uint64_t>("<f8", values); }
   std::string operator()(const std::vector<std::int32_t>& values) const {
-    std::string bytes = npy_header("<i4", shape);
-    bytes.reserve(bytes.size() + 4 * values.size());
-    for (const std::int32_t value : values) put_value<std::int32_t, std::uint32_t>(bytes, value);
-    return bytes;
+    return numbers<std::uint32_t>("<i4", values);
   }
-  // Text of numpy: fixed width, 4 bytes a character, zeros behind. The names here are ASCII.
+  std::string operator()(const std::vector<std::int64_t>& values) const {
+    return numbers<std::uint64_t>("<i8", values);
+  }
+  // Text of numpy: fixed width, 4 bytes a character, zeros behind.
   std::string operator()(const std::vector<std::string>& values) const {
+    std::vector<std::vector<std::uint32_t>> texts;
     std::size_t width = 1;
-    for (const std::string& value : values) width = std::max(width, value.size());
-    std::string bytes = npy_header(fmt::format("<U{}", width), shape);
     for (const std::string& value : values) {
-      for (std::size_t i = 0; i < width; ++i) {
-        put_value<std::uint32_t, std::uint32_t>(bytes, i < value.size() ? static_cast<unsigned char>(value[i]) : 0u);
-      }
+      texts.push_back(characters(value));
+      width = std::max(width, texts.back().size());
+    }
+    std::string bytes = npy_header(fmt::format("<U{}", width), shape);
+    for (std::vector<std::uint32_t>& text : texts) {
+      text.resize(width, 0u);
+      for (const std::uint32_t character : text) put_value<std::uint32_t, std::uint32_t>(bytes, character);
     }
     return bytes;
   }
+
+  template <class Bits, class Value>
+  std::string numbers(const std::string& descr, const std::vector<Value>& values) const {
+    std::string bytes = npy_header(descr, shape);
+    bytes.reserve(bytes.size() + sizeof(Value) * values.size());
+    for (const Value value : values) put_value<Value, Bits>(bytes, value);
+    return bytes;
+  }
+
   const std::vector<std::size_t>& shape;
 };
+
+std::string to_npz(const std::vector<Field>& fields) {
+  ZipWriter zip;
+  for (const Field& field : fields) zip.add(field.name + ".npy", std::visit(NpyBody{field.shape}, field.values));
+  return zip.finish();
+}
 
 // ---- Reading ----
 
@@ -205,13 +233,9 @@ NumberArray parse_npy(std::string_view bytes, const std::string& place) {
 
 }  // namespace
 
-std::string to_npz(const drop::Record& record) {
-  ZipWriter zip;
-  for (const Field& field : to_fields(record)) {
-    zip.add(field.name + ".npy", std::visit(NpyBody{field.shape}, field.values));
-  }
-  return zip.finish();
-}
+std::string to_npz(const drop::Record& record) { return to_npz(to_fields(record)); }
+
+std::string to_npz(const Trajectory& trajectory) { return to_npz(to_fields(trajectory)); }
 
 drop::Record parse_record_npz(std::string_view bytes, const std::string& name) {
   const std::vector<std::string> wanted = field_names_read();

@@ -1,14 +1,17 @@
-// A record as a numpy archive: the arrays of record_fields.hpp, for numpy.load and back.
+// Records and trajectories as numpy archives: the arrays of record_fields.hpp and trajectory_fields.hpp, for
+// numpy.load.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 #include "tumble/drop/drop.hpp"
+#include "tumble/trajectory/trajectory.hpp"
 
 namespace tumble::output {
 
 std::string to_npz(const drop::Record& record);
+std::string to_npz(const Trajectory& trajectory);
 
 // Reads what `to_npz` wrote, to the same bits, and what numpy.savez or numpy.savez_compressed made of the
 // same names. q, v and the parameters are needed; absent records of the steps are computed anew. Throws

@@ -46,13 +46,6 @@ std::vector<Value> collect(const Record& record, Get get) {
   return values;
 }
 
-template <class Enum>
-std::vector<std::string> names_of(int count) {
-  std::vector<std::string> names;
-  for (int code = 0; code < count; ++code) names.emplace_back(to_string(static_cast<Enum>(code)));
-  return names;
-}
-
 // ---- Reading ----
 
 class Reader {
@@ -206,8 +199,8 @@ std::vector<Field> to_fields(const Record& record) {
       {"potential", "J", {T}, collect<double>(record, [&](int k) { return potential_at(record, k); })},
       {"columns", "", {}, Codes{parameters.columns}},
       {"trajectory_status", "", {}, Codes{static_cast<int>(trajectory.status)}},
-      {"mode_names", "", {k_mode_count}, names_of<ContactMode>(k_mode_count)},
-      {"status_names", "", {k_status_count}, names_of<LcpStatus>(k_status_count)}};
+      {"mode_names", "", {k_mode_count}, names_of_codes<ContactMode>(k_mode_count)},
+      {"status_names", "", {k_status_count}, names_of_codes<LcpStatus>(k_status_count)}};
   for (const ScalarField& scalar : k_scalars) {
     fields.push_back({scalar.name, scalar.unit, {}, std::vector<double>{parameters.*scalar.member}});
   }

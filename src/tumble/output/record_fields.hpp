@@ -5,23 +5,14 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "tumble/drop/drop.hpp"
+#include "tumble/output/field.hpp"
 
 namespace tumble::output {
-
-struct Field {
-  std::string name;
-  std::string unit;                // "" if it has none
-  std::vector<std::size_t> shape;  // rows first; empty for a scalar
-  std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::string>> values;
-};
 
 // Throws std::invalid_argument if the sizes within the record disagree or its parameters are not allowed.
 void check_record(const drop::Record& record);

@@ -13,9 +13,7 @@ namespace tumble::output {
 namespace {
 
 constexpr std::string_view k_contact_columns =
-    "step,t [s],body_a,body_b,part_a,part_b,feature,x_a [m],y_a [m],x_b [m],y_b [m],normal_x,normal_y,gap [m],"
-    "normal_velocity [m/s],tangential_velocity [m/s],normal_velocity_after [m/s],tangential_velocity_after [m/s],"
-    "normal_impulse [N s],friction_impulse [N s],mode,restitution,law_friction,law_static_friction,law_restitution";
+    "step,t [s],body_a,body_b,part_a,part_b,feature,mode,x_a [m],y_a [m],x_b [m],y_b [m],normal_x,normal_y";
 
 // A cell of a word, which may hold commas [RFC 4180].
 std::string cell(std::string_view word) {
@@ -73,7 +71,11 @@ std::string samples_csv_rows(const Trajectory& trajectory, std::size_t first, st
 }
 
 std::string contacts_csv_header(const Trajectory& trajectory) {
-  return fmt::format("{}{}\n", comments(trajectory, "contacts"), k_contact_columns);
+  std::string text = comments(trajectory, "contacts").append(k_contact_columns);
+  for (const ContactField& field : k_contact_fields) {
+    text += *field.unit == '\0' ? fmt::format(",{}", field.name) : fmt::format(",{} [{}]", field.name, field.unit);
+  }
+  return text + '\n';
 }
 
 std::string contacts_csv_rows(const Trajectory& trajectory, std::size_t first, std::size_t last) {
@@ -85,20 +87,11 @@ std::string contacts_csv_rows(const Trajectory& trajectory, std::size_t first, s
     const std::string time = to_text(static_cast<double>(step.step) * trajectory.step_size);
     for (const ContactRecord& record : step.contacts) {
       const Contact& contact = record.contact;
-      text += fmt::format("{},{},{},{},{},{},{}", step.step, time, labels[static_cast<std::size_t>(contact.body_a)],
+      text += fmt::format("{},{},{},{},{},{},{},{}", step.step, time, labels[static_cast<std::size_t>(contact.body_a)],
                           labels[static_cast<std::size_t>(contact.body_b)], contact.part_a, contact.part_b,
-                          contact.feature);
+                          contact.feature, to_string(record.mode));
       for (const Vector2 value : {contact.point_a, contact.point_b, contact.normal}) append(text, value);
-      for (const double value :
-           {contact.gap, record.normal_velocity, record.tangential_velocity, record.normal_velocity_after,
-            record.tangential_velocity_after, record.normal_impulse, record.friction_impulse}) {
-        append(text, value);
-      }
-      text.append(",").append(to_string(record.mode));
-      for (const double value :
-           {record.restitution, record.law.friction, record.law.static_friction, record.law.restitution}) {
-        append(text, value);
-      }
+      for (const ContactField& field : k_contact_fields) append(text, field.value(record));
       text += '\n';
     }
   }

@@ -1,9 +1,11 @@
-// What the files of a scene's course hold, by name.
+// What the files of a scene's course hold, by name: the one list behind .csv, .npz and .h5.
 #pragma once
 
 #include <array>
+#include <vector>
 
-#include "tumble/step/step_report.hpp"
+#include "tumble/output/field.hpp"
+#include "tumble/trajectory/trajectory.hpp"
 
 namespace tumble::output {
 
@@ -21,5 +23,28 @@ inline constexpr std::array<EnergyField, 8> k_energy_fields = {
      {"damping_loss", &EnergyLedger::damping_loss},
      {"stabilisation_work", &EnergyLedger::stabilisation_work},
      {"created", &EnergyLedger::created}}};
+
+// The numbers of a contact that are no vectors.
+struct ContactField {
+  const char* name;
+  const char* unit;
+  double (*value)(const ContactRecord& record);
+};
+
+inline constexpr std::array<ContactField, 11> k_contact_fields = {
+    {{"gap", "m", [](const ContactRecord& r) { return r.contact.gap; }},
+     {"normal_velocity", "m/s", [](const ContactRecord& r) { return r.normal_velocity; }},
+     {"tangential_velocity", "m/s", [](const ContactRecord& r) { return r.tangential_velocity; }},
+     {"normal_velocity_after", "m/s", [](const ContactRecord& r) { return r.normal_velocity_after; }},
+     {"tangential_velocity_after", "m/s", [](const ContactRecord& r) { return r.tangential_velocity_after; }},
+     {"normal_impulse", "N s", [](const ContactRecord& r) { return r.normal_impulse; }},
+     {"friction_impulse", "N s", [](const ContactRecord& r) { return r.friction_impulse; }},
+     {"restitution", "", [](const ContactRecord& r) { return r.restitution; }},
+     {"law_friction", "", [](const ContactRecord& r) { return r.law.friction; }},
+     {"law_static_friction", "", [](const ContactRecord& r) { return r.law.static_friction; }},
+     {"law_restitution", "", [](const ContactRecord& r) { return r.law.restitution; }}}};
+
+// All of a trajectory as arrays; docs/formats.md lists them.
+std::vector<Field> to_fields(const Trajectory& trajectory);
 
 }  // namespace tumble::output

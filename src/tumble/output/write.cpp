@@ -40,8 +40,10 @@ constexpr std::array<NamedFormat, 7> k_record_formats = {{{"csv", Format::csv},
                                                           {"png", Format::png},
                                                           {"svg", Format::svg}}};
 
-constexpr std::array<NamedFormat, 6> k_trajectory_formats = {{{"contacts.csv", Format::contacts_csv},  // before csv
+constexpr std::array<NamedFormat, 8> k_trajectory_formats = {{{"contacts.csv", Format::contacts_csv},  // before csv
                                                               {"csv", Format::csv},
+                                                              {"npz", Format::npz},
+                                                              {"h5", Format::h5},
                                                               {"gif", Format::gif},
                                                               {"mp4", Format::mp4},
                                                               {"png", Format::png},
@@ -235,12 +237,14 @@ void write_trajectory(const Trajectory& trajectory, const std::filesystem::path&
   check_trajectory_writable(path, options, trajectory.time.back());
   if (is_picture(format)) {
     write_picture(trajectory, path, options, format);
-    return;
+  } else if (format == Format::npz || format == Format::h5) {
+    write_file_atomically(path, format == Format::npz ? to_npz(trajectory) : to_hdf5(trajectory), options.overwrite);
+  } else {
+    OutputFile file(path, options.overwrite);
+    if (format == Format::csv) write_csv(trajectory, file);
+    if (format == Format::contacts_csv) write_contacts_csv(trajectory, file);
+    file.commit();
   }
-  OutputFile file(path, options.overwrite);
-  if (format == Format::csv) write_csv(trajectory, file);
-  if (format == Format::contacts_csv) write_contacts_csv(trajectory, file);
-  file.commit();
 }
 
 ContactUse contact_use(const std::filesystem::path& path, const WriteOptions& options) {
