@@ -484,10 +484,25 @@ def test_a_trajectory_is_saved_as_tables(tmp_path: Path) -> None:
     assert len(rows) == 1 + len(trajectory.contacts) > 1
 
 
+def test_a_trajectory_is_saved_as_arrays(tmp_path: Path) -> None:
+    trajectory = simulate(load("dominoes"), duration=0.3, sample_every=10)
+    trajectory.save(tmp_path / "run.npz")
+    arrays = np.load(tmp_path / "run.npz")
+    for name in ("time", "pose", "velocity"):
+        assert np.array_equal(arrays[name], getattr(trajectory, name))
+    for name in trajectory.energy.dtype.names:
+        assert np.array_equal(arrays[name], trajectory.energy[name])
+    contacts = trajectory.contacts
+    for name in set(contacts.dtype.names) - {"time", "mode"}:
+        assert np.array_equal(arrays[f"contact_{name}"], contacts[name]), name
+    assert np.array_equal(arrays["mode_names"][arrays["contact_mode"]], contacts["mode"])
+    assert Scene.parse(str(arrays["scene"])) == trajectory.scene
+
+
 @pytest.mark.parametrize(
-    ("name", "start"), [("run.png", b"\x89PNG"), ("run.svg", b"<?xml"), ("run.gif", b"GIF89a"), ("run.mp4", b"\0\0\0")]
+    ("name", "start"), [("run.png", b"\x89PNG"), ("run.svg", b"<?xml"), ("run.gif", b"GIF89a"), ("run.mp4", b"\0\0\0"), ("run.h5", b"\x89HDF")]
 )
-def test_a_trajectory_is_saved_as_a_picture(tmp_path: Path, name: str, start: bytes) -> None:
+def test_a_trajectory_is_saved_by_its_ending(tmp_path: Path, name: str, start: bytes) -> None:
     trajectory = simulate(load("dominoes"), duration=0.3, contacts=False)
     trajectory.save(tmp_path / name, width=320, height=200, speed=0.5)
     assert (tmp_path / name).read_bytes().startswith(start)
