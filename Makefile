@@ -34,7 +34,10 @@ run: deps-build ## simulate the course's start; writes out/drop.csv, out/drop.gi
 	@echo
 	@echo "Look at out/drop.gif and out/drop.png. Then try:"
 	@echo "  $(BUILD)/bin/tumble drop --q0 0,1,45deg --v0 2,0,-3 --friction 0.6 -o out/mine.gif"
-	@echo "  $(BUILD)/bin/tumble drop --help"
+	@echo "  $(BUILD)/bin/tumble run scenes/wall_and_ball.toml -o out/wall_and_ball.gif"
+	@echo "  $(BUILD)/bin/tumble run scenes/dominoes.toml -o out/dominoes.gif"
+	@echo "  $(BUILD)/bin/tumble run scenes/galton_board.toml -o out/galton_board.gif"
+	@echo "  $(BUILD)/bin/tumble --help"
 	@echo "  make && PYTHONPATH=$(BUILD)/python $(PYTHON) -c 'from tumble.drop import simulate; print(simulate([0, 1.5, 0.5], [0, -0.2, 0]))'"
 
 test: ## all tests; the last line is "N passed, N failed"

@@ -3,6 +3,7 @@
 import json
 import os
 import pty
+import re
 import signal
 import subprocess
 from pathlib import Path
@@ -272,6 +273,17 @@ def test_no_progress_where_there_is_no_terminal(folder: Path) -> None:
     printed, said = process.communicate(timeout=60)
     assert process.returncode == 130 and said.startswith(b"tumble: interrupted at ") and said.count(b"\n") == 1
     assert b"\nend      moving; fastest is ball, red " in printed
+
+
+def test_the_scenes_that_make_run_names_can_be_run(folder: Path) -> None:
+    commands = re.findall(r'@echo "  \$\(BUILD\)/bin/tumble (run .*)"', (ROOT / "Makefile").read_text())
+    assert len(commands) == 3
+    (folder / "scenes").symlink_to(ROOT / "scenes")
+    (folder / "out").mkdir()
+    for command in commands:
+        text = succeed(*command.split(), "--duration", "0.5", cwd=folder)
+        target = command.split()[-1]
+        assert text.endswith(f"wrote {target}\n") and Image.open(folder / target).n_frames > 10
 
 
 def test_the_summary_of_every_named_scene(tmp_path: Path) -> None:

@@ -230,8 +230,7 @@ void Animation::Parts::draw_arrows(int frame) {
     const double length = arrow_length(impulse);
     if (length >= 6.0 && !bodies->is_crowd())
       draw_cone(canvas, contact, impulse.normal, impulse.friction, 1.15 * length, opacity);
-    // Mixed with the paper instead of see-through: a .gif has few colours.
-    const Colour colour = mix(k_paper, colour_of(impulse.mode), opacity);
+    const Colour colour = colour_of(impulse.mode).with_opacity(opacity);
     draw_impulse(canvas, contact, impulse, {length, length < 10.0 ? 1.4 : 2.2, colour});
     if (!bodies->is_crowd()) canvas.draw_disc(contact, 2.6, colour);
   }
