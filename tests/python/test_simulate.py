@@ -204,6 +204,9 @@ def test_created_energy_is_warned_of() -> None:
 
 # Interrupts, threads, terminals.
 
+# A test run in the background ignores Ctrl-C, and so would its children.
+HEEDS_CTRL_C = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+
 INTERRUPTED = """
 import threading, _thread, time, tumble
 scene = tumble.Scene.load({scene!r})
@@ -224,7 +227,7 @@ def run_python(code: str, **more: object) -> subprocess.CompletedProcess[str]:
 
 
 def test_ctrl_c_keeps_what_was_computed() -> None:
-    done = run_python(INTERRUPTED.format(scene=str(ROOT / "scenes/drop.toml")))
+    done = run_python(HEEDS_CTRL_C + INTERRUPTED.format(scene=str(ROOT / "scenes/drop.toml")))
     assert done.stdout == "True False solved True True\nTrue True\n", done.stderr
 
 
@@ -240,7 +243,7 @@ except KeyboardInterrupt:
     n = simulation.num_steps
     print(n > 0, abs(simulation.time - n * 1e-3) < 1e-9 * n, simulation.advance(), simulation.num_steps == n + 1)
 """
-    done = run_python(code.format(scene=str(ROOT / "scenes/drop.toml")))
+    done = run_python(HEEDS_CTRL_C + code.format(scene=str(ROOT / "scenes/drop.toml")))
     assert done.stdout == "True True solved True\n", done.stderr
 
 
