@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tumble import _core
-from tumble._scene import Body, Scene
+from tumble._bodies import Body
+from tumble._scene import Scene
 
 BodyName = Union[str, int, Body]
 
