@@ -107,8 +107,7 @@ std::vector<ClosedForm> forces() {
   return {
       {"stack of three boxes: forces", weight, 0, k_round_off, stacked({0.3, 0.3, 0.3})},
       {"stack of ten boxes of 1 to 10 kg: forces", weight, 0, k_round_off, stacked({1, 7, 3, 10, 2, 9, 4, 8, 5, 6})},
-      not_met({"a million kg on one kg: forces", weight, 0, 1e-8, stacked({1, 1e6})},
-              "the LCP of a heavy body on a light one is solved to 1e-8 at small steps"),
+      {"a million kg on one kg: forces", weight, 0, 1e-8, stacked({1, 1e6})},
       {"one kg on a million kg: forces", weight, 0, k_round_off, stacked({1e6, 1})},
       {"two boxes on a slope: forces", weight, 0, k_round_off, stack_on_a_slope},
       {"plank with a load: forces of the supports", "lever rule", 0, k_round_off, plank_with_a_load},

@@ -172,6 +172,7 @@ TEST(Rest, StructuresStandAtAllStepSizes) {
   for (const Structure& structure : structures()) {
     expect_to_stand(structure, law(0.5));
     expect_to_stand(structure, law(0.5, 0.5));
+    expect_to_stand(structure, static_and_kinetic(0.6, 0.3));
   }
 }
 

@@ -27,8 +27,9 @@ grade
 """
 
 from tumble import drop, lcp
+from tumble._bodies import Body, ContactLaw, Knot, Material, Part, Wrench
 from tumble._core import NoSolution, Shape, __version__
-from tumble._scene import Body, ContactLaw, Knot, Material, Part, Scene, Wrench
+from tumble._scene import Scene
 from tumble._shapes import (
     capsule,
     disc,

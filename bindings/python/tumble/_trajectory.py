@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tumble import _core
-from tumble._scene import Body, Scene
+from tumble._bodies import Body
+from tumble._scene import Scene
 
 BodyName = Union[str, int, Body]
 
@@ -210,7 +211,8 @@ class Trajectory:
         ----------
         path : path
             Its ending says what: ``.gif`` and ``.mp4`` (with ffmpeg) a film in real time, ``.png`` and ``.svg`` poses and
-            paths in one picture, ``.csv`` bodies and energies over time, ``.contacts.csv`` contacts over time.
+            paths in one picture; ``.csv`` bodies and energies over time, ``.contacts.csv`` contacts over time, ``.npz`` and
+            ``.h5`` (with HDF5) all of it.
         format : str, optional
             Such an ending without its first dot, whatever the path ends in.
         width, height : int

@@ -22,6 +22,7 @@ struct ContactMemory {
   std::uint32_t feature = 0;
   ContactMode mode = ContactMode::open;
   bool has_stuck = false;
+  bool has_bounced = false;
   double normal_impulse = 0.0, friction_impulse = 0.0;  // [N s]
 };
 

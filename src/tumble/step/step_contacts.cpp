@@ -138,7 +138,7 @@ void set_motion(const Parts& parts, double h, StepContact& c) {
 void recall(const ContactMemory* memory, double h, StepContact& c) {
   if (memory) {
     c.mode = memory->mode;
-    c.was_closed = c.mode != ContactMode::open;
+    c.was_closed = c.mode != ContactMode::open && !memory->has_bounced;
     c.impulse = {memory->normal_impulse, memory->friction_impulse};
     c.has_stuck = memory->has_stuck;
   } else {
@@ -159,6 +159,15 @@ std::optional<Impact> find_impact(const Scene& scene, double h, const Parts& par
   return time_of_impact(shape_a, parts.poses[a], velocity[a], shape_b, parts.poses[b], velocity[b], h, distance);
 }
 
+// Of point_b seen from point_a.
+Vector2 relative_velocity(const Parts& parts, const Contact& contact, const std::vector<Vector3>& velocity) {
+  const auto velocity_at = [&](int body, Vector2 point) {
+    const Vector3& v = velocity[static_cast<Index>(body)];
+    return Vector2{v[0], v[1]} + v[2] * turned_left(point - parts.frames[static_cast<Index>(body)].position);
+  };
+  return velocity_at(contact.body_b, contact.point_b) - velocity_at(contact.body_a, contact.point_a);
+}
+
 // The contact in place of those of two polygons that would close in the step, where by their own motion, forces apart,
 // they pass each other.
 std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& parts, std::span<const Contact> pair) {
@@ -169,17 +178,16 @@ std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& p
   const Contact& nearest = *std::min_element(pair.begin(), pair.end(), [](auto& c, auto& d) { return c.gap < d.gap; });
   const auto a = static_cast<Index>(nearest.body_a), b = static_cast<Index>(nearest.body_b);
   if (!(nearest.gap > position_round_off(parts, nearest))) return std::nullopt;
-  const auto velocity_at = [&](Index body, Vector2 point) {
-    const Vector3& v = parts.velocity[body];
-    return Vector2{v[0], v[1]} + v[2] * turned_left(point - parts.frames[body].position);
-  };
-  const Vector2 way = early * h * (velocity_at(b, nearest.point_b) - velocity_at(a, nearest.point_a));
+  const Vector2 velocity = relative_velocity(parts, nearest, parts.velocity), way = early * h * velocity;
   if (!(nearest.gap + dot(nearest.normal, way) < 0.0)) return std::nullopt;
   const double tolerance = step_height * std::min(length(way), size_of_pair(parts, nearest).radius);
   const auto better = passing_contact(shape_of(scene, nearest.body_a, nearest.part_a), parts.frames[a],
                                       shape_of(scene, nearest.body_b, nearest.part_b), parts.frames[b], way, tolerance);
   if (!better || better->gap + dot(better->normal, way) < -tilt * length(way)) return std::nullopt;
   if (dot(better->normal, nearest.normal) > same_side) return std::nullopt;  // and it may have both ends of the side
+  // Where they meet corner on corner, which side they pass on is not decided; forces that press on one decide it.
+  const Vector2 pressed = relative_velocity(parts, nearest, parts.free_velocity) - velocity;
+  if (better->gap <= tolerance && !(dot(better->normal, pressed) < 0.0)) return std::nullopt;
   return Contact{*better, nearest.body_a, nearest.body_b, nearest.part_a, nearest.part_b};
 }
 

@@ -20,6 +20,7 @@ constexpr double k_gap_round_off = 1e-12;
 constexpr double k_speed_round_off = 1e-12;
 // [-] of the same: impacts that follow from others in the same step, and approach slower, wait for the next one.
 constexpr double k_impact_share = 1e-9;
+constexpr int k_max_attempts = 6;       // at a bounce that makes no energy
 constexpr int k_max_impact_rounds = 8;  // the last without restitution
 
 struct Island {
@@ -158,12 +159,15 @@ struct Island {
     }
   }
 
-  // Turning alone, by which closed contacts start with a speed of their bend, is no approach.
+  // Turning alone, by which closed contacts start with a speed of their bend, is no approach. The way to the contact is
+  // that of the LCP for the way: so an elastic bounce keeps the energy exactly.
   void set_bounce(StepContact& c, double end_speed) const {
     c.end_speed = end_speed;
     const double turning = c.was_closed ? c.bend / h : 0.0;
-    c.bounce = bounce_speed({c.gap, c.speed[0] - turning, end_speed - turning, h}, c.law->restitution);
+    c.bounce = bounce_speed({way_to(c), c.speed[0] - turning, end_speed - turning, h}, c.law->restitution);
   }
+
+  static double way_to(const StepContact& c) { return std::max(c.gap + c.bend, 0.0); }
 
   // The gap [m] after the step, up to third order, without impacts.
   double gap_without_impacts(const StepContact& c) const {
@@ -175,7 +179,7 @@ struct Island {
   bool is_free() const {
     return std::none_of(contacts.begin(), contacts.end(), [&](int i) {
       const StepContact& c = at(i);
-      return (c.was_closed ? c.gap + h * c.free_speed[0] + c.bend : gap_without_impacts(c)) < 0.0;
+      return (c.was_closed && !may_bounce(c) ? c.gap + h * c.free_speed[0] + c.bend : gap_without_impacts(c)) < 0.0;
     });
   }
 
@@ -195,7 +199,7 @@ struct Island {
     for (const int i : contacts) {
       StepContact& c = at(i);
       c.is_included = !may_bounce(c);
-      c.offset = std::max(c.gap + c.bend, 0.0) / h;
+      c.offset = way_to(c) / h;
     }
     solve_with_statics(parts.free_velocity, to);
   }
@@ -229,7 +233,7 @@ struct Island {
     for (const int i : contacts) {
       StepContact& c = at(i);
       c.is_included = true;
-      c.offset = std::max(c.gap + c.bend, 0.0) / h;
+      c.offset = way_to(c) / h;
       if (is_bouncing(c)) c.friction = 0.0;
     }
     solve_with_statics(parts.middle_velocity, parts.way_velocity);
@@ -239,70 +243,6 @@ struct Island {
       const double way = h * contact_velocity(c.rows, parts.way_velocity)[0];
       const double round_off = k_gap_round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])));
       c.is_touched = c.mode != ContactMode::open || c.gap + c.bend + way <= round_off;
-    }
-  }
-
-  // The velocities after the impacts at the end of the way, by one LCP for those that bounce by themselves and those
-  // that stand, then by one for each round of impacts that follow from these. Contacts that are opening are not part of
-  // an LCP: it would push bodies together that part. Where it drives them together, they bounce in the next round.
-  void bounce() {
-    find_approach();
-    find_way();
-    set_friction();
-    for (const int i : contacts) {
-      StepContact& c = at(i);
-      const bool bounces = is_bouncing(c);
-      const bool stands = !may_bounce(c) && c.end_speed <= rest_speed;
-      c.is_included = c.is_touched && (bounces || stands);
-      c.offset = bounces ? -c.bounce : 0.0;
-      c.restitution = c.is_included && bounces ? c.law->restitution : 0.0;
-    }
-    solve_with_statics(parts.free_velocity, parts.next_velocity);
-    note_forces();
-    add_work(parts.velocity, parts.next_velocity);
-    for (int round = 1; round <= k_max_impact_rounds && list_next_impacts(round < k_max_impact_rounds); ++round) {
-      parts.way_velocity = parts.next_velocity;
-      solve_with_statics(parts.way_velocity, parts.next_velocity);
-      add_work(parts.way_velocity, parts.next_velocity);
-    }
-  }
-
-  // Contacts that are touched and do not open now; false if none of them closes. Without restitution the round is the
-  // last.
-  bool list_next_impacts(bool with_restitution) {
-    bool has_impact = false;
-    for (const int i : contacts) {
-      StepContact& c = at(i);
-      const double speed = contact_velocity(c.rows, parts.next_velocity)[0];
-      c.is_included = c.is_touched && (speed <= rest_speed || !with_restitution);
-      const bool is_impact = c.is_touched && speed < -k_impact_share * largest_speed;
-      const double restitution = is_impact && with_restitution ? c.law->restitution : 0.0;
-      c.offset = restitution * speed;
-      c.restitution = std::max(c.restitution, restitution);
-      has_impact = has_impact || is_impact;
-    }
-    return has_impact;
-  }
-
-  // The velocities that the forces of the step have worked on.
-  void note_forces() {
-    for (const int body : parts.island_body) {
-      const auto b = static_cast<Index>(body);
-      parts.force_velocity[b] = parts.next_velocity[b];
-    }
-  }
-
-  // Impulses of an LCP, and what they did.
-  void add_work(const Velocities& from, const Velocities& to) {
-    for (const int i : contacts) {
-      StepContact& c = at(i);
-      if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
-      const auto u = contact_velocity(c.rows, from), next = contact_velocity(c.rows, to);
-      for (Index j = 0; j < 2; ++j) {
-        c.total_impulse[j] += c.impulse[j];
-        c.work[j] += 0.5 * c.impulse[j] * (u[j] + next[j]);
-      }
-      c.impact_mode = c.mode;
     }
   }
 
@@ -350,6 +290,103 @@ struct Island {
     }
     return sum;
   }
+
+  // The velocities after the impacts at the end of the way, by one LCP for those that bounce by themselves and those
+  // that stand, then by one for each round of impacts that follow from these. Contacts that are opening are not part of
+  // an LCP: it would push bodies together that part. Where it drives them together, they bounce in the next round.
+  void find_velocities(double share) {
+    set_friction();
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      const bool bounces = is_bouncing(c);
+      const bool stands = !may_bounce(c) && c.end_speed <= rest_speed;
+      c.is_included = c.is_touched && (bounces || stands);
+      c.offset = bounces ? -share * c.bounce : 0.0;
+      c.restitution = c.is_included && bounces ? c.law->restitution : 0.0;
+      c.work = c.total_impulse = {};
+      c.impact_mode = ContactMode::open;
+    }
+    solve_with_statics(parts.free_velocity, parts.next_velocity);
+    note_forces();
+    add_work(parts.velocity, parts.next_velocity);
+    for (int round = 1; round <= k_max_impact_rounds && list_next_impacts(round < k_max_impact_rounds, share);
+         ++round) {
+      parts.way_velocity = parts.next_velocity;
+      solve_with_statics(parts.way_velocity, parts.next_velocity);
+      add_work(parts.way_velocity, parts.next_velocity);
+    }
+  }
+
+  // Impacts without friction make no energy, and elastic ones lose none. Where several in one step would, by what their
+  // ways and their speeds of approach do not know of each other, they all bounce a little less, or more.
+  void bounce() {
+    find_approach();
+    find_way();
+    double square = 1.0, last_square = 1.0, last_made = 0.0;  // of the share; the energy made is linear in it
+    for (int attempt = 0;; ++attempt) {
+      find_velocities(std::sqrt(square));
+      double bounced = 0.0;
+      bool rubs = false, is_elastic = true;
+      for (const int i : contacts) {
+        const StepContact& c = at(i);
+        if (c.restitution > 0.0)
+          bounced += 0.5 * c.total_impulse[0] * std::abs(contact_velocity(c.rows, parts.next_velocity)[0]);
+        rubs = rubs || c.total_impulse[1] != 0.0;
+        is_elastic = is_elastic && (c.total_impulse[0] == 0.0 || c.restitution == 1.0);
+      }
+      const Created made = created();
+      const double wrong = is_elastic ? std::abs(made.energy) : made.energy;
+      if (rubs || wrong <= k_energy_round_off * made.size || !(bounced > 0.0)) return;
+      const bool is_last = attempt >= k_max_attempts;
+      if (is_last && (made.energy <= 0.0 || attempt >= 2 * k_max_attempts)) return;
+      double slope = 0.5 * bounced / square;
+      if (attempt > 0 && (made.energy - last_made) * (square - last_square) > 0.0)
+        slope = (made.energy - last_made) / (square - last_square);
+      last_square = square;
+      last_made = made.energy;
+      square -= (is_last ? 2.0 : 1.0) * made.energy / slope;  // in the end, too little rather than too much
+      if (!(square > 0.0)) square = 0.0;
+    }
+  }
+
+  // Contacts that are touched and do not open now; false if none of them closes. Without restitution the round is the
+  // last.
+  bool list_next_impacts(bool with_restitution, double share) {
+    bool has_impact = false;
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      const double speed = contact_velocity(c.rows, parts.next_velocity)[0];
+      c.is_included = c.is_touched && (speed <= rest_speed || !with_restitution);
+      const bool is_impact = c.is_touched && speed < -k_impact_share * largest_speed;
+      const double restitution = is_impact && with_restitution ? c.law->restitution : 0.0;
+      c.offset = share * restitution * speed;
+      c.restitution = std::max(c.restitution, restitution);
+      has_impact = has_impact || is_impact;
+    }
+    return has_impact;
+  }
+
+  // The velocities that the forces of the step have worked on.
+  void note_forces() {
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      parts.force_velocity[b] = parts.next_velocity[b];
+    }
+  }
+
+  // Impulses of an LCP, and what they did.
+  void add_work(const Velocities& from, const Velocities& to) {
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
+      const auto u = contact_velocity(c.rows, from), next = contact_velocity(c.rows, to);
+      for (Index j = 0; j < 2; ++j) {
+        c.total_impulse[j] += c.impulse[j];
+        c.work[j] += 0.5 * c.impulse[j] * (u[j] + next[j]);
+      }
+      c.impact_mode = c.mode;
+    }
+  }
 };
 
 }  // namespace
@@ -384,8 +421,8 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
   for (const int i : contacts) {
     StepContact& c = island.at(i);
     c.speed_after = contact_velocity(c.rows, parts.next_velocity);
-    if (c.mode == ContactMode::open) c.mode = c.impact_mode;  // of an earlier round
-    if (c.friction == 0.0 && c.mode != ContactMode::open)     // no friction tells which way it slips
+    c.mode = c.impact_mode;                                // open, where no round had an impulse
+    if (c.friction == 0.0 && c.mode != ContactMode::open)  // no friction tells which way it slips
       c.mode = c.speed_after[1] < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
     c.sticks = c.mode != ContactMode::open && !island.slips(c, parts.next_velocity);
     island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;

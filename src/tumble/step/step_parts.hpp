@@ -30,7 +30,7 @@ struct StepContact {
                                        // `gap_curvature`
   double gap_at_start = 0.0;           // [m] < 0: overlap
   bool is_ahead = false;               // of fast bodies: where they will meet, not where they are closest now
-  bool was_closed = false;             // in the last step
+  bool was_closed = false;             // in the last step, and did not bounce
   bool has_stuck = false;              // in the last step: static friction may hold it
   bool is_listed = false;              // in an island: it may be touched in this step
   bool is_new = false;                 // there, since the islands were last solved

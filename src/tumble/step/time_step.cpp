@@ -265,8 +265,8 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   for (const StepContact& c : parts.contacts) {
     if (!c.is_listed || c.mode == ContactMode::open) continue;
     const Contact& k = c.contact;
-    state.contacts.push_back(
-        {k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.sticks, c.impulse[0], c.impulse[1]});
+    state.contacts.push_back({k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.sticks, c.restitution > 0.0,
+                              c.impulse[0], c.impulse[1]});
   }
   if (report) {
     *report = {worst.status, worst.residual, num_islands, worst.factorisations, {}, std::move(report->contacts)};

@@ -1,0 +1,29 @@
+"""What the tests of scenes share."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import tumble
+from tumble import Scene
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# A test run in the background ignores Ctrl-C, and so would its children.
+HEEDS_CTRL_C = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+
+
+def load(name: str) -> Scene:
+    return Scene.load(ROOT / f"scenes/{name}.toml")
+
+
+def box_on_floor(**law: float) -> Scene:
+    scene = Scene()
+    scene.add_material("wood", **{"friction": 0.5, **law})
+    scene.add_fixed(tumble.half_plane(), name="floor", material="wood")
+    scene.add_body(tumble.square(0.25), mass=2, name="box", position=(0, 0.125), material="wood")
+    return scene
+
+
+def run_python(code: str, **more: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, **more)  # type: ignore[call-overload]
