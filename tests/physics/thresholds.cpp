@@ -246,7 +246,7 @@ std::vector<ClosedForm> thresholds() {
       {"board slips from under a box: force", "(mu_1 + mu_2) (m + M) g", 0, k_accepted, board_under_a_box},
       {"rocking block grips at its new corner: friction", "h (1 - r) / (b (1 + r))", 0, k_accepted, rocking_block},
       {"oblique disc grips: friction", "v_t / (3 (1 + e) v_n)", 0, k_accepted, oblique_disc},
-      {"square on its corner grips: friction", "|B_nt| / B_tt", 0, k_accepted, corner},
+      {"square on its corner grips: friction", "abs(B_nt) / B_tt", 0, k_accepted, corner},
       {"box on a tilting table slips: angle", "sin a = mu (cos a - w^2 h / g)", 1, 1e-2, tilting_table},
   };
 }
