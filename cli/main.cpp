@@ -168,8 +168,8 @@ void add_run(CLI::App& program, RunOptions& options, std::function<int()>& comma
 }
 
 void add_render(CLI::App& program, RenderOptions& options, std::function<int()>& command) {
-  CLI::App& app = *program.add_subcommand("render", "Draw a recorded trajectory, or convert it");
-  app.add_option("file", options.input, "Trajectory written by `tumble drop -o`: .csv .npz .h5")
+  CLI::App& app = *program.add_subcommand("render", "Draw a record of a drop, or convert it");
+  app.add_option("file", options.input, "Record written by `tumble drop -o`: .csv .npz .h5")
       ->type_name("FILE")
       ->required();
   add_output_options(app, options.output, ".csv .npz .h5 (data)");

@@ -1,4 +1,7 @@
+#include <exception>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "input.hpp"
@@ -61,10 +64,21 @@ int run_scene(const RunOptions& options) {
   settings.keeps_contacts = keeps_contacts(options);
   RunNotes notes;
   const Trajectory trajectory = simulate(scene, settings, notes);
-  for (const std::string& file : files) output::write_trajectory(trajectory, file, pictures);
-  if (!options.report.quiet) {
-    fmt::print("{}", options.report.json ? run_json(trajectory, notes, files) : run_text(trajectory, notes, files));
+  // A file that cannot be written does not cost the others.
+  std::vector<std::string> written;
+  std::exception_ptr failure;
+  for (const std::string& file : files) {
+    try {
+      output::write_trajectory(trajectory, file, pictures);
+      written.push_back(file);
+    } catch (const std::exception&) {
+      if (!failure) failure = std::current_exception();
+    }
   }
+  if (!options.report.quiet) {
+    fmt::print("{}", options.report.json ? run_json(trajectory, notes, written) : run_text(trajectory, notes, written));
+  }
+  if (failure) std::rethrow_exception(failure);
   return end_of(trajectory, notes, duration);
 }
 

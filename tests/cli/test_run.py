@@ -231,9 +231,13 @@ def test_faults_of_a_scene_have_their_place(folder: Path, old: str, new: str, me
     assert not (folder / "a.csv").exists()
 
 
-def test_a_disk_that_fills_up_costs_nothing(folder: Path) -> None:
-    (folder / "full.csv").symlink_to("/dev/full")
-    assert "full.csv: No space left on device" in refuse("run", "ball.toml", "-o", "full.csv", cwd=folder)
+@pytest.mark.parametrize("ending", ["csv", "contacts.csv", "npz", "h5", "png", "gif"])
+def test_a_disk_that_is_full_costs_one_file(folder: Path, ending: str) -> None:
+    (folder / f"full.{ending}").symlink_to("/dev/full")
+    run = tumble("run", "ball.toml", "-o", f"full.{ending}", "-o", "a.csv", cwd=folder)
+    assert run.returncode == 2 and run.stderr.count("\n") == 1
+    assert run.stderr.startswith("tumble: ") and f"full.{ending}: No space left on device" in run.stderr
+    assert run.stdout.endswith("wrote a.csv\n") and len(rows_of(folder / "a.csv")) == 501
 
 
 def start(words: list[str], folder: Path, stderr: int) -> subprocess.Popen[bytes]:

@@ -2,6 +2,9 @@
 
 #include "record_samples.hpp"
 
+#include "tumble/output/file.hpp"
+#include "tumble/output/hdf5.hpp"
+#include "tumble/output/write.hpp"
 #include "tumble/scene/scene_toml.hpp"
 #include "tumble/trajectory/simulate.hpp"
 
@@ -71,6 +74,35 @@ TEST(TrajectoryCsv, RowsDoNotDependOnHowManyAreAskedFor) {
             samples_csv_rows(trajectory, 0, 1) + samples_csv_rows(trajectory, 1, 3));
   EXPECT_EQ(contacts_csv_rows(trajectory, 0, 2),
             contacts_csv_rows(trajectory, 0, 1) + contacts_csv_rows(trajectory, 1, 2));
+}
+
+TEST(WriteTrajectory, EveryFormat) {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> endings = {"csv", "contacts.csv", "npz", "gif", "png", "svg", "Contacts.CSV"};
+  if (has_hdf5()) endings.push_back("h5");
+  for (const std::string& ending : endings) {
+    write_trajectory(ball_at_rest(), folder / ("run." + ending));
+    EXPECT_GT(std::filesystem::file_size(folder / ("run." + ending)), 400u) << ending;
+  }
+  EXPECT_EQ(folder.count_files(), endings.size()) << "no temporary file is left";
+  EXPECT_EQ(read_file(folder / "run.contacts.csv", 10'000), read_file(folder / "run.Contacts.CSV", 10'000));
+}
+
+TEST(WriteTrajectory, RefusesWhatIsInconsistent) {
+  const test::TemporaryFolder folder;
+  const auto refusal = [&](auto change) {
+    Trajectory trajectory = ball_at_rest();
+    change(trajectory);
+    return test::message_of<std::invalid_argument>([&] { write_trajectory(trajectory, folder / "run.npz"); });
+  };
+  using test::has;
+  EXPECT_TRUE(has(refusal([](Trajectory& t) { t = {}; }), "must have one or more times"));
+  EXPECT_TRUE(has(refusal([](Trajectory& t) { t.states.pop_back(); }), "got 3 times, 3 energies and 8 states"));
+  EXPECT_TRUE(has(refusal([](Trajectory& t) { t.contacts[1].step = 1; }), "got 1 behind 1"));
+  EXPECT_TRUE(has(refusal([](Trajectory& t) { t.contacts[1].step = 3; }), "steps in [1, 2]"));
+  EXPECT_TRUE(
+      has(refusal([](Trajectory& t) { t.contacts[0].contacts[0].contact.body_b = 3; }), "step 1 is of no body"));
+  EXPECT_EQ(folder.count_files(), 0u);
 }
 
 }  // namespace

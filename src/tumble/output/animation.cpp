@@ -118,7 +118,7 @@ int count_frames(double motion, double speed, int max_frames) {
 Animation::Parts::Parts(const Trajectory& the_trajectory, int width, int height, double the_speed, int max_frames)
     : trajectory(the_trajectory),
       speed(the_speed),
-      frames(count_frames(trajectory.time.back(), speed, max_frames)),
+      frames(count_frames(trajectory.time.empty() ? 0.0 : trajectory.time.back(), speed, max_frames)),
       scale(std::min(width / k_design_width, height / k_design_height)),
       background(Canvas::image(width, height, scale)),
       canvas(Canvas::image(width, height, scale)) {

@@ -137,8 +137,11 @@ void BodyDrawing::draw_ground(Canvas& canvas, const PartOutline& outline, Point 
   canvas.unclip();
 }
 
-void BodyDrawing::draw(Canvas& canvas, std::size_t body, const Pose& pose, const BodyStyle& style) const {
+void BodyDrawing::draw(Canvas& canvas, std::size_t body, const Pose& pose, const BodyStyle& usual_style) const {
   const BodyOutline& outline = outlines_[body];
+  constexpr double k_thin_below = 18.0;  // [px]; lines of smaller bodies are finer
+  BodyStyle style = usual_style;
+  style.outline.width *= std::clamp(outline.radius / k_thin_below, 0.45, 1.0);
   const Point centre = view_.to_pixel(pose.position);
   const Area& area = view_.area;
   const double far =

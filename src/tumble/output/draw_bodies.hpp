@@ -38,8 +38,8 @@ class BodyDrawing {
   // Those that are fixed, without the moving surfaces of conveyors.
   void draw_fixed(Canvas& canvas) const;
 
-  // A body at a pose; a body too small to be seen is drawn as a dot.
-  void draw(Canvas& canvas, std::size_t body, const Pose& pose, const BodyStyle& style) const;
+  // A body at a pose; lines of small bodies are finer, and one too small to be seen is a dot.
+  void draw(Canvas& canvas, std::size_t body, const Pose& pose, const BodyStyle& usual_style) const;
 
   // The surfaces of conveyors at a time [s]: chevrons that run with them.
   void draw_conveyors(Canvas& canvas, std::span<const BodyState> states, double time) const;

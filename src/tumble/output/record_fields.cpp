@@ -60,7 +60,8 @@ class Reader {
 
   const NumberArray& get(const std::string& field) const {
     const auto found = fields_.find(field);
-    if (found == fields_.end()) refuse(field, "is missing; q, v, l, m, mu, eps, dt, delta and g are needed");
+    if (found == fields_.end())
+      refuse(field, "is missing; a record of the drop has q, v, l, m, mu, eps, dt, delta and g");
     return found->second;
   }
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "tumble/output/trajectory_fields.hpp"
 #include "tumble/output/view.hpp"
 
 namespace tumble::output {
@@ -177,6 +178,7 @@ bool reach_boundary(Vector2 normal, double offset, double reach, Box& box) {
 }  // namespace
 
 Sight sight_of(const Trajectory& trajectory) {
+  check_trajectory(trajectory);
   const Scene& scene = trajectory.scene;
   Motion motion = motion_of(trajectory);
   Sight sight;

@@ -1,5 +1,7 @@
 #include "tumble/output/trajectory_fields.hpp"
 
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 #include "tumble/scene/scene_toml.hpp"
@@ -94,9 +96,43 @@ void add_contacts(const Trajectory& trajectory, std::vector<Field>& fields) {
   }
 }
 
+bool is_of_scene(const Contact& contact, const Scene& scene) {
+  const auto is_body = [&](int body, int part) {
+    return body >= 0 && static_cast<std::size_t>(body) < scene.bodies.size() && part >= 0 &&
+           static_cast<std::size_t>(part) < scene.bodies[static_cast<std::size_t>(body)].parts.size();
+  };
+  return is_body(contact.body_a, contact.part_a) && is_body(contact.body_b, contact.part_b);
+}
+
 }  // namespace
 
+void check_trajectory(const Trajectory& trajectory) {
+  const std::size_t T = trajectory.time.size(), B = trajectory.scene.bodies.size();
+  if (T == 0 || trajectory.energy.size() != T || trajectory.states.size() != T * B) {
+    throw std::invalid_argument(
+        fmt::format("trajectory: must have one or more times, as many energies and {} states for each, got {} times, "
+                    "{} energies and "
+                    "{} states",
+                    B, T, trajectory.energy.size(), trajectory.states.size()));
+  }
+  std::int64_t before = 0;
+  for (const StepContacts& step : trajectory.contacts) {
+    if (step.step <= before || step.step > trajectory.num_steps) {
+      throw std::invalid_argument(fmt::format(
+          "trajectory: contacts must be of steps in [1, {}], each later than the one before, got {} behind {}",
+          trajectory.num_steps, step.step, before));
+    }
+    before = step.step;
+    for (const ContactRecord& record : step.contacts) {
+      if (is_of_scene(record.contact, trajectory.scene)) continue;
+      throw std::invalid_argument(
+          fmt::format("trajectory: a contact of step {} is of no body of the scene", step.step));
+    }
+  }
+}
+
 std::vector<Field> to_fields(const Trajectory& trajectory) {
+  check_trajectory(trajectory);
   const std::vector<std::string> labels = body_labels(trajectory.scene);
   const std::vector<std::string> modes = names_of_codes<ContactMode>(k_mode_count);
   std::vector<Field> fields = {

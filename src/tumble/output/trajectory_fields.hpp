@@ -44,6 +44,9 @@ inline constexpr std::array<ContactField, 11> k_contact_fields = {
      {"law_static_friction", "", [](const ContactRecord& r) { return r.law.static_friction; }},
      {"law_restitution", "", [](const ContactRecord& r) { return r.law.restitution; }}}};
 
+// Throws std::invalid_argument if the sizes within the trajectory disagree, or a contact is of no body or step.
+void check_trajectory(const Trajectory& trajectory);
+
 // All of a trajectory as arrays; docs/formats.md lists them.
 std::vector<Field> to_fields(const Trajectory& trajectory);
 

@@ -35,7 +35,8 @@ struct Sight {
 
 // Where all that moves is during the whole run; of the fixed world what is near, and the boundary of half-planes unless
 // it is so far away that bodies would shrink to specks for its sake. Where a few bodies leave the others far behind,
-// the place of the others. Throws std::invalid_argument if that is too large or too small to be drawn.
+// the place of the others. Throws std::invalid_argument if that is too large or too small to be drawn, or
+// the trajectory inconsistent.
 Sight sight_of(const Trajectory& trajectory);
 
 // Equal scales along x and y. Positions are taken relative to the middle first, so that a picture far from

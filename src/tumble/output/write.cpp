@@ -20,6 +20,7 @@
 #include "tumble/output/record_fields.hpp"
 #include "tumble/output/strobe.hpp"
 #include "tumble/output/trajectory_csv.hpp"
+#include "tumble/output/trajectory_fields.hpp"
 
 namespace tumble::output {
 namespace {
@@ -233,6 +234,7 @@ void check_trajectory_writable(const std::filesystem::path& path, const WriteOpt
 }
 
 void write_trajectory(const Trajectory& trajectory, const std::filesystem::path& path, const WriteOptions& options) {
+  check_trajectory(trajectory);
   const Format format = format_of(path, options, k_trajectory_formats);
   check_trajectory_writable(path, options, trajectory.time.back());
   if (is_picture(format)) {
