@@ -67,7 +67,7 @@ struct IslandSolver::Parts {
   bool sweep_and_run() {
     for (int batch = 0; batch < k_num_batches; ++batch) {
       modes.sweep(k_sweeps_per_batch);
-      if (offer()) return true;
+      offer();
       const std::vector<ContactMode> swept_modes = modes.modes;
       const std::vector<double> swept_impulses = modes.impulses;
       if (run()) return true;

@@ -10,7 +10,9 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_round_off = 1e-12;  // [-] of the size of the bodies: overlap below is none
-constexpr int k_num_sweeps = 10;       // what overlap they leave is met by those of the next step
+constexpr double k_unmoved = 1e-15;    // [-] of the same: the sweeps have arrived
+constexpr int k_max_sweeps = 1000;     // what overlap they leave is met by those of the next step
+constexpr int k_fast_sweeps = 10;      // of the fast solver
 
 // Both bodies of a contact: f(body, row of the normal).
 template <typename F>
@@ -27,7 +29,9 @@ double overlap_after(const StepWorkspace::Parts& parts, const StepContact& c, do
 
 }  // namespace
 
-void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, double lost) {
+void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
+              double lost) {
+  const int max_sweeps = settings.solver == ContactSolver::fast ? k_fast_sweeps : k_max_sweeps;
   const auto at = [&](int i) -> StepContact& { return parts.contacts[static_cast<Index>(i)]; };
   // The bend of the way that was found, with slips that impacts may have changed.
   const auto motion_of = [&](int body) {
@@ -51,19 +55,23 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, do
 
   // Projected Gauss-Seidel on the multipliers of gap >= 0.
   for (const int i : contacts) at(i).push = 0.0;
-  for (int sweep = 0; sweep < k_num_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+    bool has_moved = false;
     for (const int i : contacts) {
       StepContact& c = at(i);
-      double response = 0.0;
+      double response = 0.0, size = 0.0;
       for_bodies(c.rows, [&](Index b, const Vector3& n) {
         for (Index j = 0; j < 3; ++j) response += n[j] * n[j] * parts.inverse_mass[b][j];
+        size = std::max(size, parts.radius[b]);
       });
       const double push = std::max(0.0, c.push + overlap_after(parts, c, h) / response);
+      has_moved = has_moved || std::abs(push - c.push) * response > k_unmoved * size;
       for_bodies(c.rows, [&](Index b, const Vector3& n) {
         for (Index j = 0; j < 3; ++j) parts.shift[b][j] += parts.inverse_mass[b][j] * n[j] * (push - c.push);
       });
       c.push = push;
     }
+    if (!has_moved) break;
   }
 
   double work = 0.0;  // against the forces

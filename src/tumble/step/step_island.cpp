@@ -218,13 +218,35 @@ struct Island {
     return true;
   }
 
-  // What bounces is approached under the forces and the contacts that stand.
+  // What bounces is approached under the forces and the contacts that stand. Those may be more than it seems at first:
+  // bodies that fall together do not approach each other until the lower one stands.
   void find_approach() {
-    stand(parts.way_velocity);
-    for (const int i : contacts) {
-      StepContact& c = at(i);
-      if (may_bounce(c)) set_bounce(c, contact_velocity(c.rows, parts.way_velocity)[0]);
+    const auto count = [&] {
+      return std::count_if(contacts.begin(), contacts.end(), [&](int i) { return may_bounce(at(i)); });
+    };
+    for (auto before = count(); before > 0;) {
+      stand(parts.way_velocity);
+      for (const int i : contacts) {
+        StepContact& c = at(i);
+        if (may_bounce(c)) set_bounce(c, contact_velocity(c.rows, parts.way_velocity)[0]);
+      }
+      const auto after = count();
+      if (after == before) return;
+      before = after;
     }
+  }
+
+  // The speed [m/s] that the forces of the step alone can bring about at a contact.
+  double load_speed(const StepContact& c) const {
+    double sum = 0.0;
+    const auto add = [&](int body, const Vector3& normal) {
+      if (body < 0) return;
+      const auto b = static_cast<Index>(body);
+      for (Index j = 0; j < 3; ++j) sum += h * std::abs(normal[j] * parts.inverse_mass[b][j] * parts.force[b][j]);
+    };
+    add(c.rows.body_a, c.rows.normal_a);
+    add(c.rows.body_b, c.rows.normal_b);
+    return sum;
   }
 
   // One LCP for the way, until gaps close. What bounces meets its friction after the way.
@@ -295,18 +317,9 @@ struct Island {
   // that stand, then by one for each round of impacts that follow from these. Contacts that are opening are not part of
   // an LCP: it would push bodies together that part. Where it drives them together, they bounce in the next round.
   void find_velocities(double share) {
-    set_friction();
-    for (const int i : contacts) {
-      StepContact& c = at(i);
-      const bool bounces = is_bouncing(c);
-      const bool stands = !may_bounce(c) && c.end_speed <= rest_speed;
-      c.is_included = c.is_touched && (bounces || stands);
-      c.offset = bounces ? -share * c.bounce : 0.0;
-      c.restitution = c.is_included && bounces ? c.law->restitution : 0.0;
-      c.work = c.total_impulse = {};
-      c.impact_mode = ContactMode::open;
-    }
-    solve_with_statics(parts.free_velocity, parts.next_velocity);
+    do {
+      find_first_impacts(share);
+    } while (add_loads());
     note_forces();
     add_work(parts.velocity, parts.next_velocity);
     for (int round = 1; round <= k_max_impact_rounds && list_next_impacts(round < k_max_impact_rounds, share);
@@ -315,6 +328,36 @@ struct Island {
       solve_with_statics(parts.way_velocity, parts.next_velocity);
       add_work(parts.way_velocity, parts.next_velocity);
     }
+  }
+
+  void find_first_impacts(double share) {
+    set_friction();
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      const bool bounces = is_bouncing(c);
+      const bool stands = c.is_load || (!may_bounce(c) && c.end_speed <= rest_speed);
+      c.is_included = c.is_touched && (bounces || stands);
+      c.offset = bounces ? -share * c.bounce : 0.0;
+      c.restitution = c.is_included && bounces ? c.law->restitution : 0.0;
+      c.work = c.total_impulse = {};
+      c.impact_mode = ContactMode::open;
+    }
+    solve_with_statics(parts.free_velocity, parts.next_velocity);
+  }
+
+  // Contacts left out of the first LCP that the load of the step closes, at a speed whose rebounds end within the step:
+  // that is no impact, they stand. False if there are none.
+  bool add_loads() {
+    bool has_more = false;
+    for (const int i : contacts) {
+      StepContact& c = at(i);
+      if (!c.is_touched || c.is_included || c.is_load) continue;
+      const double speed = contact_velocity(c.rows, parts.next_velocity)[0], e = c.law->restitution;
+      if (!(speed < -k_impact_share * largest_speed)) continue;
+      c.is_load = -2.0 * e * speed <= std::min(c.speed[0] - speed, load_speed(c)) * (1.0 - e);
+      has_more = has_more || c.is_load;
+    }
+    return has_more;
   }
 
   // Impacts without friction make no energy, and elastic ones lose none. Where several in one step would, by what their
@@ -396,6 +439,7 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
   for (const int i : contacts) {
     StepContact& c = island.at(i);
     c.restitution = 0.0;
+    c.is_load = false;
     c.impact_mode = ContactMode::open;
     c.work = c.total_impulse = {};
     const double speed =
@@ -427,7 +471,7 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
     c.sticks = c.mode != ContactMode::open && !island.slips(c, parts.next_velocity);
     island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;
   }
-  separate(parts, contacts, h, -island.created().energy);
+  separate(parts, contacts, h, settings, -island.created().energy);
   const Island::Created created = island.created();
   if (created.energy > k_energy_round_off * created.size) island.outcome.created = created.energy;
   island.forget_bodies();

@@ -38,6 +38,7 @@ struct StepContact {
   double end_speed = 0.0;   // u_n at the end of the step, were there no impacts
   double bounce = 0.0;      // [m/s] speed of separation, if the gap closes
   bool is_touched = false;  // at the end of the way
+  bool is_load = false;     // closed by the forces of the step alone, after impacts
   // Of the LCP being solved, and what came out.
   bool is_included = true;
   double friction = 0.0;                        // kinetic, or static
@@ -136,7 +137,8 @@ IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, do
 // Adds to the travel of the bodies of one island what takes them out of what they would overlap after the step, the
 // least in the metric of their masses. Velocities stay. Bodies are lifted against their forces by no more work than
 // `lost` [J], what the step has lost: the sum creates no energy.
-void separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, double lost);
+void separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, const StepSettings& settings,
+              double lost);
 
 // Velocity (u_n, u_t) of the contact where its bodies have the given ones.
 inline std::array<double, 2> contact_velocity(const BodyContact& rows, const std::vector<Vector3>& velocity) {
