@@ -160,7 +160,8 @@ void add_run(CLI::App& program, RunOptions& options, std::function<int()>& comma
              "Steps from one sample in the files to the next", "1", "COUNT");
   add_parsed(app, "--solver", settings.step.solver, &contact_solver,
              "Of contacts: exact, or fast for many bodies, which stops before the last digits", "exact", "NAME");
-  app.add_flag("--no-contacts", options.no_contacts, "Leave contacts out of the files");
+  app.add_flag("--no-contacts", options.no_contacts,
+               "Leave contacts out of the files; saves memory in long runs of many bodies");
   add_output_options(app, options.output,
                      ".csv (bodies and energies over time), .contacts.csv (contacts), .npz .h5 (all of it)");
   add_report_options(app, options.report);

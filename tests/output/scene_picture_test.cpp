@@ -51,7 +51,8 @@ TEST(ScenePicture, ShowsEveryShape) {
 TEST(ScenePicture, OfScenesWithoutBodiesOrMotion) {
   for (const char* text : {"", "bodies = [{ kind = 'fixed', shape = { half_plane = [3, 4] } }]",
                            "bodies = [{ kind = 'fixed', shape = { disc = 1e9 }, position = [0, -1e9] }]",
-                           "bodies = [{ kind = 'kinematic', shape = { disc = 1e-9 } }]"}) {
+                           "bodies = [{ kind = 'kinematic', shape = { disc = 1e-9 } }]",
+                           "bodies = [{ kind = 'kinematic', shape = { disc = 1e-12 }, position = [1e12, 1e12] }]"}) {
     const Trajectory trajectory = run(std::string("duration = 0.01\n") + text);
     EXPECT_TRUE(to_strobe_png(trajectory).starts_with("\x89PNG")) << text;
     EXPECT_TRUE(to_gif(trajectory, 160, 160).starts_with("GIF89a")) << text;

@@ -18,8 +18,8 @@ void check_momentum(const Scene& scene, double step_size, const State& before, c
 
 // Signorini's condition and Coulomb's law in each contact, and that the mode says what the contact does. To the
 // residual that the solver accepts.
-void check_contacts(const Scene& scene, double step_size, const State& before, const State& after,
-                    const StepReport& report, std::vector<std::string>& broken);
+void check_contacts(const Scene& scene, double step_size, const State& before, const StepReport& report,
+                    std::vector<std::string>& broken);
 
 // The ledger closes to 1e-12 of what it sums, its energies are those of the state, and contacts take energy away where
 // none is reported as created.

@@ -43,8 +43,8 @@ struct Defect {
   const char* what;
   std::vector<std::string> scenes;
 };
-const Defect k_records = {"a contact without an impulse is said to stick, or its place is that where fast bodies meet",
-                          {"billiard", "compound", "funnel", "galton_board"}};
+const Defect k_records = {"places of contacts that fast bodies meet at are those of the meeting",
+                          {"billiard", "funnel"}};
 const Defect k_unsolved = {"a step is not solved", {"pile"}};
 
 bool shows(const Defect& defect, const std::string& scene) {
@@ -95,7 +95,6 @@ Scene random_scene(problems::Random& random, double friction, double restitution
 }
 
 TEST(RandomScenes, KeepTheLaws) {
-  GTEST_SKIP() << k_records.what;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     problems::Random random(seed);
     const double friction = random.uniform(0.0, 1.0), restitution = seed % 2 == 0 ? 0.0 : random.uniform(0.1, 1.0);

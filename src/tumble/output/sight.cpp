@@ -85,8 +85,9 @@ void require_drawable(double value, double low, const char* what) {
 struct Motion {
   Box all = k_nothing;
   Box start = k_nothing;
-  std::array<std::vector<double>, 4> ends;                         // low x, low y, -high x, -high y
-  double smallest_body = std::numeric_limits<double>::infinity();  // diameter [m]
+  std::array<std::vector<double>, 4> ends;                            // low x, low y, -high x, -high y
+  double smallest_dynamic = std::numeric_limits<double>::infinity();  // diameter [m]
+  double smallest_kinematic = std::numeric_limits<double>::infinity();
   std::size_t bodies = 0;
 };
 
@@ -103,7 +104,8 @@ Motion motion_of(const Trajectory& trajectory) {
     const Box upright = body_box.at(0.0);
     const double diameter = length(upright.high - upright.low);
     require_drawable(diameter, k_smallest_body, "sizes");
-    if (body.kind == BodyKind::dynamic) motion.smallest_body = std::min(motion.smallest_body, diameter);
+    double& smallest = body.kind == BodyKind::dynamic ? motion.smallest_dynamic : motion.smallest_kinematic;
+    smallest = std::min(smallest, diameter);
     for (std::size_t k = 0; k < samples; ++k) {
       const Pose& pose = trajectory.bodies(k)[i].pose;
       require_drawable(pose.position.x, -k_largest, "positions");
@@ -182,7 +184,7 @@ Sight sight_of(const Trajectory& trajectory) {
   const Scene& scene = trajectory.scene;
   Motion motion = motion_of(trajectory);
   Sight sight;
-  const double smallest_body = motion.smallest_body;
+  const double smallest = std::isfinite(motion.smallest_dynamic) ? motion.smallest_dynamic : motion.smallest_kinematic;
   if (is_empty(motion.all)) {
     sight.box = with_fixed_bodies({{-1.0, -1.0}, {1.0, 1.0}}, scene);
   } else {
@@ -193,7 +195,7 @@ Sight sight_of(const Trajectory& trajectory) {
     sight.box = with_fixed_bodies(sight.box, scene);
   }
   const double size = size_of(sight.box);
-  sight.smallest = std::isfinite(smallest_body) ? k_smallest_sight * smallest_body : size;
+  sight.smallest = std::isfinite(smallest) ? k_smallest_sight * smallest : size;
   const double reach = k_ground_reach * std::max(size, sight.smallest);
   for (const Body& body : scene.bodies) {
     const Frame frame = frame_of(body.pose);

@@ -48,7 +48,8 @@ struct Sizes {
 };
 
 Sizes choose_sizes(const Sight& sight, int width, int height, double default_scale) {
-  const Vector2 size = sight.box.high - sight.box.low;
+  Vector2 size = sight.box.high - sight.box.low;  // may be 0 far from the origin
+  size = {std::max(size.x, sight.smallest), std::max(size.y, sight.smallest)};
   double plot_height = k_default_plot_height;
   double plot_width = (plot_height - k_margins.top - k_margins.bottom) * size.x / size.y + 2.0 * k_margins.side;
   if (plot_width > k_widest_plot) {
