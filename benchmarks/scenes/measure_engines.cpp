@@ -24,7 +24,7 @@ double seconds_per_step(const World& world, double step_size, const Engine& engi
   const int num_steps = steps_of(world, step_size);
   double seconds = 0.0;
   int num_runs = 0;
-  for (; seconds < at_least; ++num_runs) {
+  for (; num_runs == 0 || seconds < at_least; ++num_runs) {
     const Run run = engine.build(world, step_size);
     const double start = processor_seconds();
     run.advance(num_steps);
