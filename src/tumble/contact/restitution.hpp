@@ -8,10 +8,11 @@ namespace tumble {
 
 // What of a contact's motion in a step decides whether it bounces.
 struct Approach {
-  double gap;         // at the start of the step [m]
-  double speed;       // u_n there [m/s], < 0 while the bodies approach
-  double free_speed;  // u_n at the end of the step, were there no contacts
-  double step_size;   // [s]
+  double gap;            // at the start of the step [m]
+  double speed;          // u_n there [m/s], < 0 while the bodies approach
+  double free_speed;     // u_n at the end of the step, were there no contacts
+  double step_size;      // [s]
+  double turning = 0.0;  // [m/s] what turning and curved surfaces add to u_n in the step
 
   double acceleration() const { return (free_speed - speed) / step_size; }
 };
@@ -32,7 +33,7 @@ inline double approach_speed(const Approach& approach) {
 inline double bounce_speed(const Approach& approach, double restitution) {
   if (restitution == 0.0) return 0.0;
   const double bounce = restitution * approach_speed(approach);
-  const double fall = -approach.acceleration();
+  const double fall = -approach.acceleration() - approach.turning / approach.step_size;
   const bool ends_within = fall > 0.0 && 2.0 * bounce <= approach.step_size * fall * (1.0 - restitution);
   return ends_within ? 0.0 : bounce;
 }

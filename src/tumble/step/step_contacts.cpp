@@ -134,7 +134,7 @@ void set_motion(const Parts& parts, double h, StepContact& c) {
   c.bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
 }
 
-// What the contact did in the last step. `memory` is the first of its place or behind.
+// What the contact did in the last step, if there is memory of it.
 void recall(const ContactMemory* memory, double h, StepContact& c) {
   if (memory) {
     c.mode = memory->mode;

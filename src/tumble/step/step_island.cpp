@@ -164,7 +164,8 @@ struct Island {
   void set_bounce(StepContact& c, double end_speed) const {
     c.end_speed = end_speed;
     const double turning = c.was_closed ? c.bend / h : 0.0;
-    c.bounce = bounce_speed({way_to(c), c.speed[0] - turning, end_speed - turning, h}, c.law->restitution);
+    c.bounce =
+        bounce_speed({way_to(c), c.speed[0] - turning, end_speed - turning, h, 2.0 * c.bend / h}, c.law->restitution);
   }
 
   static double way_to(const StepContact& c) { return std::max(c.gap + c.bend, 0.0); }

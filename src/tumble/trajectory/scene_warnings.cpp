@@ -143,7 +143,7 @@ void warn_of_missing_support(const Scene& scene, std::vector<SceneWarning>& warn
 
 // The fastest speed and angular velocity known before a simulation.
 std::pair<double, double> fastest(const Body& body) {
-  double speed = std::hypot(body.velocity[0], body.velocity[1]), turn = std::abs(body.velocity[2]);
+  double speed = length(Vector2{body.velocity[0], body.velocity[1]}), turn = std::abs(body.velocity[2]);
   if (!body.motion.empty()) speed = turn = 0.0;
   for (std::size_t k = 1; k < body.motion.size(); ++k) {
     const Knot& from = body.motion[k - 1];
