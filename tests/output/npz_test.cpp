@@ -97,7 +97,7 @@ std::string npy(const std::string& dictionary, std::size_t content_bytes) {
 
 TEST(Npz, NamesTheArrayAtFault) {
   EXPECT_EQ(refusal(with_entry("mu.npy", "", "")),
-            "run.npz: mu: is missing; q, v, l, m, mu, eps, dt, delta and g are needed");
+            "run.npz: mu: is missing; a record of the drop has q, v, l, m, mu, eps, dt, delta and g");
   EXPECT_TRUE(
       has(refusal(with_entry("q.npy", "q.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }", 48))),
           "run.npz: q: must have shape (3, 3), got (2, 3)"));
