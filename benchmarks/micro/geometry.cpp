@@ -51,11 +51,11 @@ void find_one_body(benchmark::State& state) {
   scene.bodies[0].parts = {{HalfPlane{{0, 1}, 0}}};
   scene.bodies[1].parts = {{box(1, 1)}};
   ContactFinder finder(scene);
-  std::vector<Frame> frames = {frame_of({}), frame_of({{0, 0.501}, 1e-3})};
+  std::vector<Pose> poses = {{}, {{0, 0.501}, 1e-3}};
   const std::vector<double> reach = {0.0, 0.01};
   for (auto _ : state) {
-    frames[1].position.x += 1e-9;
-    benchmark::DoNotOptimize(finder.find(frames, reach).data());
+    poses[1].position.x += 1e-9;
+    benchmark::DoNotOptimize(finder.find(poses, reach).data());
   }
 }
 BENCHMARK(find_one_body);
@@ -67,19 +67,19 @@ void find_grid(benchmark::State& state) {
   scene.bodies.resize(1);
   scene.bodies[0].kind = BodyKind::fixed;
   scene.bodies[0].parts = {{HalfPlane{{0, 1}, 0}}};
-  std::vector<Frame> frames = {frame_of({})};
+  std::vector<Pose> poses = {{}};
   for (int i = 0; i < side * side; ++i) {
     scene.bodies.emplace_back().parts = {{box(1, 1)}};
-    frames.push_back(frame_of({{1.001 * (i % side), 0.5 + 1.001 * (i / side)}, 1e-4 * (i % 7)}));
+    poses.push_back({{1.001 * (i % side), 0.5 + 1.001 * (i / side)}, 1e-4 * (i % 7)});
   }
   ContactFinder finder(scene);
-  const std::vector<double> reach(frames.size(), 0.005);
+  const std::vector<double> reach(poses.size(), 0.005);
   std::size_t contacts = 0;
   double shift = 1e-9;
   for (auto _ : state) {
-    for (std::size_t i = 1; i < frames.size(); ++i) frames[i].position.x += shift;
+    for (std::size_t i = 1; i < poses.size(); ++i) poses[i].position.x += shift;
     shift = -shift;
-    contacts = finder.find(frames, reach).size();
+    contacts = finder.find(poses, reach).size();
     benchmark::DoNotOptimize(contacts);
   }
   state.counters["contacts"] = static_cast<double>(contacts);

@@ -57,10 +57,13 @@ inline Ellipse random_ellipse(std::mt19937& random) {
   return random() % 2 ? Ellipse{size, size * ratio, pose} : Ellipse{size * ratio, size, pose};
 }
 
-inline Frame random_frame(std::mt19937& random, double spread) {
+inline Pose random_pose(std::mt19937& random, double spread) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  return frame(spread * unit(random), spread * unit(random), 10 * unit(random));
+  const double x = spread * unit(random), y = spread * unit(random);
+  return {{x, y}, 10 * unit(random)};
 }
+
+inline Frame random_frame(std::mt19937& random, double spread) { return frame_of(random_pose(random, spread)); }
 
 // point_b is over point_a by the gap.
 inline void expect_whole(const ContactPoint& c) {

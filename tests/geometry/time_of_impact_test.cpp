@@ -77,5 +77,38 @@ TEST(TimeOfImpact, IsNeverLaterThanSmallStepsFind) {
   EXPECT_GT(impacts, 100);
 }
 
+TEST(TimeOfImpact, WhatStaysApartIsNeverNearer) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int apart = 0, nearer = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const RoundedPolygon b = random_polygon(random);
+    const bool is_plane = trial % 4 == 0;
+    const Shape a = is_plane ? Shape(HalfPlane{{0.6, 0.8}, 0.5}) : Shape(random_polygon(random));
+    const Pose pose_a{{0.1, 0}, unit(random)}, pose_b{{1 + unit(random), 1.5 + unit(random)}, unit(random)};
+    const Vector3 v_a{unit(random), unit(random), is_plane ? 0.0 : 2 * unit(random)};
+    const Vector3 v_b{3 * unit(random), 3 * unit(random), 3 * unit(random)};
+    const MovedShape at_a(a, pose_a), at_b(b, pose_b);
+    const auto contacts = contacts_of(a, frame_of(pose_a), b, frame_of(pose_b));
+    const double turn = trial % 2 ? 0.0 : unit(random);
+    const Vector2 n = contacts[0].normal, direction = std::cos(turn) * n + std::sin(turn) * turned_left(n);
+    constexpr double duration = 0.3, distance = 0.01;
+    double least = INFINITY;
+    for (int i = 0; i <= 100; ++i) {
+      const double t = duration * i / 100;
+      const auto at = [&](const Pose& p, const Vector3& v) {
+        return frame_of({{p.position.x + t * v[0], p.position.y + t * v[1]}, p.angle + t * v[2]});
+      };
+      least = std::min(least, smallest_gap(contacts_of(a, at(pose_a, v_a), b, at(pose_b, v_b))));
+    }
+    const bool stays = stay_apart(at_a.placed(), v_a, at_b.placed(), v_b, direction, duration, distance);
+    EXPECT_TRUE(!stays || least > distance) << trial;
+    apart += stays;
+    nearer += least <= distance;
+  }
+  EXPECT_GT(apart, 300);
+  EXPECT_GT(nearer, 300);
+}
+
 }  // namespace
 }  // namespace tumble::test

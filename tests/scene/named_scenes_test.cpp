@@ -64,11 +64,11 @@ constexpr double k_gap_rounding = 1e-16;  // [m]
 
 // The least gap at the start between bodies of which one is dynamic, among those nearer than 1 mm.
 double least_gap(const Scene& scene) {
-  std::vector<Frame> frames;
-  for (const Body& body : scene.bodies) frames.push_back(frame_of(body.pose));
+  std::vector<Pose> poses;
+  for (const Body& body : scene.bodies) poses.push_back(body.pose);
   ContactFinder finder(scene);
   double least = 1e-3;
-  for (const Contact& contact : finder.find(frames, std::vector<double>(scene.bodies.size(), 0.5e-3))) {
+  for (const Contact& contact : finder.find(poses, std::vector<double>(scene.bodies.size(), 0.5e-3))) {
     least = std::min(least, contact.gap);
   }
   return least;

@@ -1,66 +1,104 @@
 #include "tumble/geometry/detect_contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "tumble/geometry/pair_contacts.hpp"
+#include "tumble/geometry/shape_size.hpp"
 
 namespace tumble {
 
-ContactFinder::ContactFinder(const Scene& scene) : placed_at_(scene.bodies.size()) {
+namespace {
+
+constexpr double k_margin = 4.0;  // [-] of the reach: for about as many steps
+
+Box with_margin(const Box& box, double margin) {
+  return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
+}
+
+}  // namespace
+
+ContactFinder::ContactFinder(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    placed_at_[i] = frame_of(body.pose);
+    bodies_.push_back(
+        {parts_.size(), parts_.size() + body.parts.size(), body.kind == BodyKind::dynamic, radius_of(body), {}, -1.0});
     for (std::size_t k = 0; k < body.parts.size(); ++k) {
-      PlacedPart part{placed_shape(body.parts[k].shape), static_cast<int>(i), static_cast<int>(k),
-                      body.kind == BodyKind::dynamic};
-      place(part.shape, placed_at_[i]);
-      const bool is_ground =
-          std::holds_alternative<PlacedHalfPlane>(part.shape) || std::holds_alternative<PlacedTerrain>(part.shape);
+      const MovedShape shape(body.parts[k].shape, body.pose);
+      const bool is_ground = std::holds_alternative<PlacedHalfPlane>(shape.placed()) ||
+                             std::holds_alternative<PlacedTerrain>(shape.placed());
       (is_ground ? ground_ : bounded_).push_back(static_cast<int>(parts_.size()));
-      parts_.push_back(std::move(part));
+      const Box box = is_ground ? Box{{-HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL}} : bounding_box(shape.placed(), 0.0);
+      parts_.push_back({shape, shape, static_cast<int>(i), static_cast<int>(k), is_ground, box});
     }
   }
   boxes_.resize(bounded_.size());
 }
 
-const std::vector<Contact>& ContactFinder::find(const std::vector<Frame>& frames, const std::vector<double>& reach) {
-  place_parts(frames, reach);
+const std::vector<Contact>& ContactFinder::find(const std::vector<Pose>& poses, const std::vector<double>& reach) {
+  if (!do_boxes_hold(poses, reach)) {
+    make_boxes(poses, reach);
+    find_pairs();
+    sort_pairs();
+  }
   contacts_.clear();
-  find_pairs(reach);
-  sort_pairs();
   for (const BoxPair& pair : pairs_) {
     const PlacedPart &a = parts_[pair.first], &b = parts_[pair.second];
+    place(a.body, poses[a.body]);
+    place(b.body, poses[b.body]);
+    const double within = reach[a.body] + reach[b.body];
+    if (!overlap(with_margin(a.box, within), b.box)) continue;
     points_.clear();
-    append_sorted_contacts(a.shape, b.shape, reach[a.body] + reach[b.body], points_);
+    append_sorted_contacts(a.shape.placed(), b.shape.placed(), within, points_);
     for (const ContactPoint& point : points_) contacts_.push_back({point, a.body, b.body, a.part, b.part});
   }
   return contacts_;
 }
 
-void ContactFinder::place_parts(const std::vector<Frame>& frames, const std::vector<double>& reach) {
-  for (PlacedPart& part : parts_) {
-    const Frame &frame = frames[part.body], &old = placed_at_[part.body];
-    const bool has_moved = frame.position != old.position || frame.sin != old.sin || frame.cos != old.cos;
-    if (has_moved) place(part.shape, frame);
+// Whether every body is so near to where its boxes were made that they still hold all within its reach.
+bool ContactFinder::do_boxes_hold(const std::vector<Pose>& poses, const std::vector<double>& reach) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const PlacedBody& body = bodies_[i];
+    const Vector2 way = poses[i].position - body.boxed_at.position;
+    const double turn = std::abs(poses[i].angle - body.boxed_at.angle);
+    const double left = body.margin - reach[i] - (turn > 0.0 ? turn * body.radius : 0.0);
+    if (!(left >= 0.0 && dot(way, way) <= left * left)) return false;
   }
-  placed_at_ = frames;
-  for (std::size_t i = 0; i < bounded_.size(); ++i) {
-    const PlacedPart& part = parts_[bounded_[i]];
-    boxes_[i] = bounding_box(part.shape, reach[part.body]);
+  return true;
+}
+
+void ContactFinder::place(int body, const Pose& pose) {
+  const PlacedBody& b = bodies_[body];
+  for (std::size_t k = b.first_part; k < b.end_part; ++k) {
+    PlacedPart& part = parts_[k];
+    if (part.shape.move_to(pose) && !part.is_ground) part.box = bounding_box(part.shape.placed(), 0.0);
   }
 }
 
-void ContactFinder::find_pairs(const std::vector<double>& reach) {
+void ContactFinder::make_boxes(const std::vector<Pose>& poses, const std::vector<double>& reach) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    place(static_cast<int>(i), poses[i]);
+    bodies_[i].boxed_at = poses[i];
+    bodies_[i].margin = k_margin * reach[i];
+  }
+  for (std::size_t i = 0; i < bounded_.size(); ++i) {
+    const PlacedPart& part = parts_[bounded_[i]];
+    boxes_[i] = with_margin(part.box, bodies_[part.body].margin);
+  }
+}
+
+void ContactFinder::find_pairs() {
   unsorted_.clear();
   const auto add = [&](int i, int j) {
-    const PlacedPart &a = parts_[i], &b = parts_[j];
-    if (a.body != b.body && (a.dynamic || b.dynamic)) unsorted_.push_back({std::min(i, j), std::max(i, j)});
+    const PlacedBody &a = bodies_[parts_[i].body], &b = bodies_[parts_[j].body];
+    if (&a != &b && (a.dynamic || b.dynamic)) unsorted_.push_back({std::min(i, j), std::max(i, j)});
   };
   for (const BoxPair& pair : broad_phase_.find(boxes_)) add(bounded_[pair.first], bounded_[pair.second]);
   for (const int i : ground_) {
+    const double margin = bodies_[parts_[i].body].margin;
     for (std::size_t k = 0; k < bounded_.size(); ++k) {
-      if (may_touch_ground(parts_[i].shape, reach[parts_[i].body], boxes_[k])) add(i, bounded_[k]);
+      if (may_touch_ground(parts_[i].shape.placed(), margin, boxes_[k])) add(i, bounded_[k]);
     }
   }
 }
@@ -75,30 +113,30 @@ void ContactFinder::sort_pairs() {
   };
   if (std::is_sorted(unsorted_.begin(), unsorted_.end(), before)) return pairs_.swap(unsorted_);
 
-  bucket_.assign(placed_at_.size() + 1, 0);
+  bucket_.assign(bodies_.size() + 1, 0);
   const auto bucket_of = [&](const BoxPair& pair) { return static_cast<std::size_t>(parts_[pair.first].body); };
   for (const BoxPair& pair : unsorted_) ++bucket_[bucket_of(pair) + 1];
   for (std::size_t i = 1; i < bucket_.size(); ++i) bucket_[i] += bucket_[i - 1];
   pairs_.resize(unsorted_.size());
   for (const BoxPair& pair : unsorted_) pairs_[bucket_[bucket_of(pair)]++] = pair;
   auto begin = pairs_.begin();
-  for (std::size_t body = 0; body < placed_at_.size(); ++body) {
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(bucket_[body]);
     if (!std::is_sorted(begin, end, before)) std::sort(begin, end, before);
     begin = end;
   }
 }
 
-// `box` is that of a part and its reach.
-bool ContactFinder::may_touch_ground(const PlacedShape& ground, double reach, const Box& box) const {
+// `box` is that of a part and its margin.
+bool ContactFinder::may_touch_ground(const PlacedShape& ground, double margin, const Box& box) const {
   if (const auto* plane = std::get_if<PlacedHalfPlane>(&ground)) {
     const Vector2 n = plane->normal;
     const Vector2 lowest = {n.x > 0.0 ? box.low.x : box.high.x, n.y > 0.0 ? box.low.y : box.high.y};
-    return dot(n, lowest - plane->position) - plane->offset <= reach;
+    return dot(n, lowest - plane->position) - plane->offset <= margin;
   }
   // Bodies are found as deep below terrain as they are long.
   const double depth = length(box.high - box.low);
-  return overlap(bounding_box(ground, reach + depth), box);
+  return overlap(bounding_box(ground, margin + depth), box);
 }
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #include "tumble/geometry/passing_contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -23,7 +24,7 @@ void try_sides(const PlacedPolygon& own, const PlacedPolygon& other, Vector2 off
     const PlacedPolygon::Corner& corner = own.corners[side];
     double lowest = std::numeric_limits<double>::infinity();
     for (const PlacedPolygon::Corner& vertex : other.corners)
-      lowest = std::fmin(lowest, dot(corner.normal, offset + vertex.vertex));
+      lowest = std::min(lowest, dot(corner.normal, offset + vertex.vertex));
     const double gap = lowest - corner.offset - own.rounding - other.rounding;
     const double gap_after = gap + dot(corner.normal, way);
     if (gap >= -tolerance && gap_after > best.gap_after) best = {is_a, side, gap, gap_after};
@@ -51,13 +52,10 @@ int corner_over(const PlacedPolygon& own, int side, const PlacedPolygon& other, 
 
 }  // namespace
 
-std::optional<ContactPoint> passing_contact(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& frame_b,
-                                            Vector2 way, double tolerance) {
-  const auto *polygon_a = std::get_if<RoundedPolygon>(&a), *polygon_b = std::get_if<RoundedPolygon>(&b);
+std::optional<ContactPoint> passing_contact(const PlacedShape& a, const PlacedShape& b, Vector2 way, double tolerance) {
+  const auto *polygon_a = std::get_if<PlacedPolygon>(&a), *polygon_b = std::get_if<PlacedPolygon>(&b);
   if (!polygon_a || !polygon_b) return std::nullopt;
-  PlacedPolygon placed_a(*polygon_a), placed_b(*polygon_b);
-  place(placed_a, frame_a);
-  place(placed_b, frame_b);
+  const PlacedPolygon &placed_a = *polygon_a, &placed_b = *polygon_b;
   const Vector2 offset = placed_b.position - placed_a.position;
   Candidate best;
   try_sides(placed_a, placed_b, offset, way, tolerance, true, best);

@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "tumble/geometry/contact_point.hpp"
-#include "tumble/math/pose.hpp"
-#include "tumble/scene/shape.hpp"
+#include "tumble/geometry/placed_shape.hpp"
 
 namespace tumble {
 
@@ -15,7 +14,6 @@ namespace tumble {
 // the contact in the one along which they are farthest apart once b has moved by `way` seen from a. Its points are a
 // corner and the foot of its height on the line of the side, which may lie beyond the end of the side. Nothing for
 // other shapes, or if there is no such direction.
-std::optional<ContactPoint> passing_contact(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& frame_b,
-                                            Vector2 way, double tolerance);
+std::optional<ContactPoint> passing_contact(const PlacedShape& a, const PlacedShape& b, Vector2 way, double tolerance);
 
 }  // namespace tumble

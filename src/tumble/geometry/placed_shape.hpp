@@ -102,4 +102,25 @@ Box bounding_box(const PlacedHalfPlane& shape, double margin);
 Box bounding_box(const PlacedTerrain& shape, double margin);
 Box bounding_box(const PlacedShape& shape, double margin);
 
+// A shape and where it is.
+class MovedShape {
+ public:
+  MovedShape(const Shape& shape, const Pose& pose) : placed_(placed_shape(shape)), pose_(pose) {
+    place(placed_, frame_of(pose));
+  }
+
+  // False if it is there already.
+  bool move_to(const Pose& pose) {
+    if (pose == pose_) return false;
+    pose_ = pose;
+    place(placed_, frame_of(pose));
+    return true;
+  }
+  const PlacedShape& placed() const { return placed_; }
+
+ private:
+  PlacedShape placed_;
+  Pose pose_;
+};
+
 }  // namespace tumble

@@ -25,6 +25,11 @@ void sort_by_feature(ContactPoints& contacts, std::size_t first) {
 
 void append_sorted_contacts(const PlacedShape& a, const PlacedShape& b, double reach, ContactPoints& contacts) {
   const std::size_t first = contacts.size();
+  const auto *polygon_a = std::get_if<PlacedPolygon>(&a), *polygon_b = std::get_if<PlacedPolygon>(&b);
+  if (polygon_a && polygon_b) {  // nearly always: no look into a table of functions
+    append_contacts(*polygon_a, *polygon_b, reach, contacts);
+    return sort_by_feature(contacts, first);
+  }
   std::visit(
       [&](const auto& shape_a, const auto& shape_b) {
         using A = std::decay_t<decltype(shape_a)>;

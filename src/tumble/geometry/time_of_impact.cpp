@@ -15,12 +15,11 @@ constexpr double k_infinity = std::numeric_limits<double>::infinity();
 // convex.
 double radius_of(const PlacedPolygon& shape) {
   double square = 0.0;
-  for (const PlacedPolygon::Corner& corner : shape.corners)
-    square = std::max(square, dot(corner.vertex, corner.vertex));
+  for (const PlacedPolygon::Corner& corner : shape.local) square = std::max(square, dot(corner.vertex, corner.vertex));
   return std::sqrt(square) + shape.rounding;
 }
 double radius_of(const PlacedEllipse& shape) {
-  return length(shape.centre) + std::max(shape.semi_axis_x, shape.semi_axis_y);
+  return length(shape.local.position) + std::max(shape.semi_axis_x, shape.semi_axis_y);
 }
 double radius_of(const PlacedHalfPlane&) { return k_infinity; }
 double radius_of(const PlacedTerrain&) { return k_infinity; }
@@ -29,17 +28,14 @@ double radius_of(const PlacedShape& shape) {
 }
 
 struct Mover {
-  PlacedShape shape;
-  Pose start;
-  Vector3 velocity;
-  double radius;
-
-  Mover(const Shape& s, const Pose& pose, const Vector3& v)
-      : shape(placed_shape(s)), start(pose), velocity(v), radius(radius_of(shape)) {}
+  MovedShape& shape;
+  const Pose& start;
+  const Vector3& velocity;
+  double radius = radius_of(shape.placed());
 
   void move_to(double time) {
     const Vector2 way{time * velocity[0], time * velocity[1]};
-    place(shape, frame_of({start.position + way, start.angle + time * velocity[2]}));
+    shape.move_to({start.position + way, start.angle + time * velocity[2]});
   }
   double spin() const { return std::abs(velocity[2]); }
 };
@@ -55,20 +51,72 @@ double fastest_approach(const Mover& a, const Mover& b, double duration) {
   return speed + (a.spin() > 0.0 ? a.spin() * arm_a : 0.0) + (b.spin() > 0.0 ? b.spin() * arm_b : 0.0);
 }
 
+// How far a point moves along a direction, n . (r' - r) of r turned by `angle`, at least: its second derivative by the
+// angle is no larger than |r|.
+double least_advance(Vector2 n, Vector2 r, double angle) {
+  return dot(n, turned_left(r)) * angle - 0.5 * angle * angle * length(r);
+}
+
+// The least of n . p over the points p of a shape about its position, now and after it has turned, each at least.
+struct Extent {
+  double now = k_infinity, later = k_infinity;
+};
+Extent extent_of(const PlacedPolygon& shape, Vector2 n, double angle) {
+  Extent least;
+  for (const PlacedPolygon::Corner& corner : shape.corners) {
+    const double height = dot(n, corner.vertex) - shape.rounding;
+    least.now = std::min(least.now, height);
+    least.later = std::min(least.later, height + least_advance(n, corner.vertex, angle));
+  }
+  return least;
+}
+Extent extent_of(const PlacedHalfPlane& shape, Vector2 n, double angle) {
+  if (n != -shape.normal || angle != 0.0) return {-k_infinity, -k_infinity};
+  return {-shape.offset, -shape.offset};
+}
+Extent extent_of(const PlacedEllipse&, Vector2, double) { return {-k_infinity, -k_infinity}; }
+Extent extent_of(const PlacedTerrain&, Vector2, double) { return {-k_infinity, -k_infinity}; }
+Extent extent_of(const PlacedShape& shape, Vector2 n, double angle) {
+  return std::visit([&](const auto& s) { return extent_of(s, n, angle); }, shape);
+}
+
+Vector2 position_of(const PlacedShape& shape) {
+  return std::visit([](const auto& s) { return s.position; }, shape);
+}
+
 }  // namespace
+
+// Where the heights of points are bounded by parabolas that bend down, so is their distance: it is least at one of the
+// ends.
+bool stay_apart(const PlacedShape& a, const Vector3& velocity_a, const PlacedShape& b, const Vector3& velocity_b,
+                Vector2 direction, double duration, double distance) {
+  const Extent from_a = extent_of(a, -direction, duration * velocity_a[2]);
+  const Extent from_b = extent_of(b, direction, duration * velocity_b[2]);
+  const double offset = dot(direction, position_of(b) - position_of(a));
+  const Vector2 velocity{velocity_b[0] - velocity_a[0], velocity_b[1] - velocity_a[1]};
+  const double way = duration * dot(direction, velocity);
+  return offset + from_a.now + from_b.now > distance && offset + way + from_a.later + from_b.later > distance;
+}
 
 std::optional<Impact> time_of_impact(const Shape& a, const Pose& pose_a, const Vector3& velocity_a, const Shape& b,
                                      const Pose& pose_b, const Vector3& velocity_b, double duration, double distance) {
-  Mover mover_a(a, pose_a, velocity_a), mover_b(b, pose_b, velocity_b);
+  MovedShape moved_a(a, pose_a), moved_b(b, pose_b);
+  ContactPoints contacts;
+  return time_of_impact(moved_a, pose_a, velocity_a, moved_b, pose_b, velocity_b, duration, distance, contacts);
+}
+
+std::optional<Impact> time_of_impact(MovedShape& a, const Pose& pose_a, const Vector3& velocity_a, MovedShape& b,
+                                     const Pose& pose_b, const Vector3& velocity_b, double duration, double distance,
+                                     ContactPoints& contacts) {
+  Mover mover_a{a, pose_a, velocity_a}, mover_b{b, pose_b, velocity_b};
   const double approach = fastest_approach(mover_a, mover_b, duration);
   const double size = std::min(mover_a.radius, mover_b.radius);
-  ContactPoints contacts;
   double time = 0.0;
   for (int step = 0;; ++step) {
     mover_a.move_to(time);
     mover_b.move_to(time);
     contacts.clear();
-    append_sorted_contacts(mover_a.shape, mover_b.shape, k_infinity, contacts);
+    append_sorted_contacts(a.placed(), b.placed(), k_infinity, contacts);
     const auto closest =
         std::min_element(contacts.begin(), contacts.end(), [](const auto& c, const auto& d) { return c.gap < d.gap; });
     // Beyond the end of terrain, and below it, nothing is near; the body may come back from there.

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "tumble/geometry/contact_point.hpp"
+#include "tumble/geometry/placed_shape.hpp"
 #include "tumble/math/pose.hpp"
 #include "tumble/math/vector.hpp"
 #include "tumble/scene/shape.hpp"
@@ -24,5 +26,15 @@ std::optional<Impact> time_of_impact(const Shape& a, const Pose& pose_a, const V
                                      const Pose& pose_b, const Vector3& velocity_b, double duration, double distance);
 
 constexpr int k_most_advances = 1000;
+
+// The same for shapes at hand, which are left somewhere on their way, with scratch memory.
+std::optional<Impact> time_of_impact(MovedShape& a, const Pose& pose_a, const Vector3& velocity_a, MovedShape& b,
+                                     const Pose& pose_b, const Vector3& velocity_b, double duration, double distance,
+                                     std::vector<ContactPoint>& scratch);
+
+// True if two shapes, moving so from where they are placed, stay more than `distance` [m] apart along a direction from
+// a to b, of length 1, for a duration: a quick look, to second order in their turning. False if it cannot tell.
+bool stay_apart(const PlacedShape& a, const Vector3& velocity_a, const PlacedShape& b, const Vector3& velocity_b,
+                Vector2 direction, double duration, double distance);
 
 }  // namespace tumble

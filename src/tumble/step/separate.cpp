@@ -36,7 +36,7 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
   // The bend of the way that was found, with slips that impacts may have changed.
   const auto motion_of = [&](int body) {
     const auto b = static_cast<Index>(body);
-    Motion motion{parts.frames[b].position, parts.velocity[b]};
+    Motion motion{parts.poses[b].position, parts.velocity[b]};
     if (parts.inverse_mass[b][0] > 0.0) {
       for (Index j = 0; j < 3; ++j) motion.velocity[j] = parts.travel[b][j] / h;
     }

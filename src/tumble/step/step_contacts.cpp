@@ -7,8 +7,8 @@
 
 #include "tumble/contact/contact_rows.hpp"
 #include "tumble/geometry/gap_rate.hpp"
+#include "tumble/geometry/pair_contacts.hpp"
 #include "tumble/geometry/passing_contact.hpp"
-#include "tumble/geometry/shape_contacts.hpp"
 #include "tumble/geometry/time_of_impact.hpp"
 #include "tumble/step/step_parts.hpp"
 
@@ -20,10 +20,6 @@ using Parts = StepWorkspace::Parts;
 
 constexpr double k_fast = 0.25;      // [-] of the radius of the smaller part: longer ways are long
 constexpr double k_touching = 1e-6;  // [-] of the same: parts that are nearer touch
-
-const Shape& shape_of(const Scene& scene, int body, int part) {
-  return scene.bodies[static_cast<Index>(body)].parts[static_cast<Index>(part)].shape;
-}
 
 bool is_dynamic(const Scene& scene, int body) {
   return scene.bodies[static_cast<Index>(body)].kind == BodyKind::dynamic;
@@ -58,8 +54,12 @@ const ContactLaw& law_of(const Scene& scene, const Parts& parts, const Contact& 
 
 auto key_of(const auto& c) { return std::tie(c.body_a, c.body_b, c.part_a, c.part_b, c.feature); }
 
-bool is_of_pair(const Contact& c, const Contact& d) {
-  return std::tie(c.body_a, c.body_b, c.part_a, c.part_b) == std::tie(d.body_a, d.body_b, d.part_a, d.part_b);
+auto pair_of(const Contact& c) { return std::tie(c.body_a, c.body_b, c.part_a, c.part_b); }
+
+bool is_of_pair(const Contact& c, const Contact& d) { return pair_of(c) == pair_of(d); }
+
+const Contact& nearest_of(std::span<const Contact> pair) {
+  return *std::min_element(pair.begin(), pair.end(), [](auto& c, auto& d) { return c.gap < d.gap; });
 }
 
 // Contacts of one pair of sides share one line of friction: their tangents are those of the one that is nearer, whose
@@ -88,7 +88,7 @@ void share_friction_line(StepContact& first, StepContact& second) {
 double position_round_off(const Parts& parts, const Contact& contact) {
   constexpr double round_off = 1e-13;  // [-] some hundred times that of one number: positions are sums over many steps
   const auto size = [&](int body) {
-    const Vector2 p = parts.frames[static_cast<Index>(body)].position;
+    const Vector2 p = parts.poses[static_cast<Index>(body)].position;
     const double radius = parts.radius[static_cast<Index>(body)];
     return std::max(std::abs(p.x), std::abs(p.y)) + (std::isfinite(radius) ? radius : 0.0);
   };
@@ -96,9 +96,9 @@ double position_round_off(const Parts& parts, const Contact& contact) {
 }
 
 // The smaller sizes of the two parts.
-PartSize size_of_pair(const Parts& parts, const Contact& pair) {
-  const PartSize& a = parts.sizes[static_cast<Index>(pair.body_a)][static_cast<Index>(pair.part_a)];
-  const PartSize& b = parts.sizes[static_cast<Index>(pair.body_b)][static_cast<Index>(pair.part_b)];
+ShapeSize size_of_pair(const Parts& parts, const Contact& pair) {
+  const ShapeSize& a = parts.sizes[static_cast<Index>(pair.body_a)][static_cast<Index>(pair.part_a)];
+  const ShapeSize& b = parts.sizes[static_cast<Index>(pair.body_b)][static_cast<Index>(pair.part_b)];
   return {std::min(a.radius, b.radius), std::max(a.thickness, b.thickness)};
 }
 
@@ -107,7 +107,7 @@ PartSize size_of_pair(const Parts& parts, const Contact& pair) {
 bool is_fast(const Parts& parts, std::span<const Contact> pair) {
   const Contact& first = pair.front();
   const double way = parts.reach[static_cast<Index>(first.body_a)] + parts.reach[static_cast<Index>(first.body_b)];
-  const PartSize size = size_of_pair(parts, first);
+  const ShapeSize size = size_of_pair(parts, first);
   if (way <= k_fast * size.radius && way <= size.thickness) return false;
   return std::all_of(pair.begin(), pair.end(), [&](const Contact& c) { return c.gap > k_touching * size.radius; });
 }
@@ -125,7 +125,7 @@ void set_geometry(const Scene& scene, const Parts& parts, StepContact& c, Vector
 void set_motion(const Parts& parts, double h, StepContact& c) {
   const auto motion_of = [&](int body) {
     const auto b = static_cast<Index>(body);
-    return Motion{parts.frames[b].position, parts.middle_velocity[b]};
+    return Motion{parts.poses[b].position, parts.middle_velocity[b]};
   };
   c.speed = contact_velocity(c.rows, parts.velocity);
   c.free_speed = contact_velocity(c.rows, parts.free_velocity);
@@ -150,39 +150,42 @@ void recall(const ContactMemory* memory, double h, StepContact& c) {
       memory || c.gap + c.bend + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
 }
 
-std::optional<Impact> find_impact(const Scene& scene, double h, const Parts& parts, const Contact& pair,
-                                  const std::vector<Vector3>& velocity) {
+// When the two parts first meet while their bodies move with these velocities. `pair`: a contact of them.
+std::optional<Impact> find_impact(double h, Parts& parts, const Contact& pair, const std::vector<Vector3>& velocity) {
   const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
-  const Shape& shape_a = shape_of(scene, pair.body_a, pair.part_a);
-  const Shape& shape_b = shape_of(scene, pair.body_b, pair.part_b);
   const double distance = k_touching * size_of_pair(parts, pair).radius;
-  return time_of_impact(shape_a, parts.poses[a], velocity[a], shape_b, parts.poses[b], velocity[b], h, distance);
+  if (stay_apart(parts.finder.shape(pair.body_a, pair.part_a), velocity[a],
+                 parts.finder.shape(pair.body_b, pair.part_b), velocity[b], pair.normal, h, 2.0 * distance)) {
+    return std::nullopt;
+  }
+  return time_of_impact(parts.finder.moved(pair.body_a, pair.part_a), parts.poses[a], velocity[a],
+                        parts.finder.moved(pair.body_b, pair.part_b), parts.poses[b], velocity[b], h, distance,
+                        parts.points);
 }
 
 // Of point_b seen from point_a.
 Vector2 relative_velocity(const Parts& parts, const Contact& contact, const std::vector<Vector3>& velocity) {
   const auto velocity_at = [&](int body, Vector2 point) {
     const Vector3& v = velocity[static_cast<Index>(body)];
-    return Vector2{v[0], v[1]} + v[2] * turned_left(point - parts.frames[static_cast<Index>(body)].position);
+    return Vector2{v[0], v[1]} + v[2] * turned_left(point - parts.poses[static_cast<Index>(body)].position);
   };
   return velocity_at(contact.body_b, contact.point_b) - velocity_at(contact.body_a, contact.point_a);
 }
 
 // The contact in place of those of two polygons that would close in the step, where by their own motion, forces apart,
 // they pass each other.
-std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& parts, std::span<const Contact> pair) {
+std::optional<Contact> find_passing(double h, const Parts& parts, std::span<const Contact> pair) {
   constexpr double early = 1.25;        // [-] of a step: forces may speed them up
   constexpr double step_height = 1e-3;  // [-] of the way, and of the size: lower steps are none
   constexpr double tilt = 0.01;         // [-] of the way: they are on it along the side
   constexpr double same_side = 0.99;    // cosine
-  const Contact& nearest = *std::min_element(pair.begin(), pair.end(), [](auto& c, auto& d) { return c.gap < d.gap; });
-  const auto a = static_cast<Index>(nearest.body_a), b = static_cast<Index>(nearest.body_b);
+  const Contact& nearest = nearest_of(pair);
   if (!(nearest.gap > position_round_off(parts, nearest))) return std::nullopt;
   const Vector2 velocity = relative_velocity(parts, nearest, parts.velocity), way = early * h * velocity;
   if (!(nearest.gap + dot(nearest.normal, way) < 0.0)) return std::nullopt;
   const double tolerance = step_height * std::min(length(way), size_of_pair(parts, nearest).radius);
-  const auto better = passing_contact(shape_of(scene, nearest.body_a, nearest.part_a), parts.frames[a],
-                                      shape_of(scene, nearest.body_b, nearest.part_b), parts.frames[b], way, tolerance);
+  const auto better = passing_contact(parts.finder.shape(nearest.body_a, nearest.part_a),
+                                      parts.finder.shape(nearest.body_b, nearest.part_b), way, tolerance);
   if (!better || better->gap + dot(better->normal, way) < -tilt * length(way)) return std::nullopt;
   if (dot(better->normal, nearest.normal) > same_side) return std::nullopt;  // and it may have both ends of the side
   // Where they meet corner on corner, which side they pass on is not decided; forces that press on one decide it.
@@ -192,26 +195,27 @@ std::optional<Contact> find_passing(const Scene& scene, double h, const Parts& p
 }
 
 // The contacts of two parts at a time of the step, their bodies moving with these velocities.
-void find_contacts_at(const Scene& scene, Parts& parts, const Contact& pair, const std::vector<Vector3>& velocity,
-                      double time, double reach) {
-  const auto frame_at = [&](int body) {
+void find_contacts_at(Parts& parts, const Contact& pair, const std::vector<Vector3>& velocity, double time,
+                      double reach) {
+  const auto moved = [&](int body, int part) -> const PlacedShape& {
     const auto b = static_cast<Index>(body);
     const Vector3& v = velocity[b];
-    return frame_of({parts.poses[b].position + time * Vector2{v[0], v[1]}, parts.poses[b].angle + time * v[2]});
+    MovedShape& shape = parts.finder.moved(body, part);
+    shape.move_to({parts.poses[b].position + time * Vector2{v[0], v[1]}, parts.poses[b].angle + time * v[2]});
+    return shape.placed();
   };
   parts.points.clear();
-  find_contacts(shape_of(scene, pair.body_a, pair.part_a), frame_at(pair.body_a),
-                shape_of(scene, pair.body_b, pair.part_b), frame_at(pair.body_b), reach, parts.points);
+  append_sorted_contacts(moved(pair.body_a, pair.part_a), moved(pair.body_b, pair.part_b), reach, parts.points);
 }
 
 // Appends the contacts that two parts have where they first meet when their bodies move with these velocities. The gap
 // is the way that is left to there, along the normal that they will have.
 void append_contacts_ahead(const Scene& scene, double h, Parts& parts, const Contact& pair,
                            const std::vector<Vector3>& velocity, std::vector<StepContact>& contacts) {
-  const auto impact = find_impact(scene, h, parts, pair, velocity);
+  const auto impact = find_impact(h, parts, pair, velocity);
   if (!impact) return;
   const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
-  find_contacts_at(scene, parts, pair, velocity, impact->time, parts.reach[a] + parts.reach[b]);
+  find_contacts_at(parts, pair, velocity, impact->time, parts.reach[a] + parts.reach[b]);
   const auto position_of = [&](Index body) {
     return parts.poses[body].position + impact->time * Vector2{velocity[body][0], velocity[body][1]};
   };
@@ -232,26 +236,32 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, const Con
 }
 
 // Bodies that turn fast run into each other although the places that touched first are held apart.
-bool is_deep_at_end(const Scene& scene, double h, Parts& parts, const Contact& pair) {
+bool is_deep_at_end(double h, Parts& parts, const Contact& pair) {
   constexpr double deep = 0.01;  // [-] of the radius
-  find_contacts_at(scene, parts, pair, parts.way_velocity, h, 0.0);
+  find_contacts_at(parts, pair, parts.way_velocity, h, 0.0);
   const double depth = deep * size_of_pair(parts, pair).radius;
   return std::any_of(parts.points.begin(), parts.points.end(), [&](const auto& point) { return point.gap < -depth; });
 }
 
-// The velocities that take bodies where they were found to go.
-void set_way_velocity(const Scene& scene, double h, Parts& parts) {
-  for (Index i = 0; i < scene.bodies.size(); ++i) {
-    for (Index j = 0; j < 3; ++j) {
-      parts.way_velocity[i][j] =
-          scene.bodies[i].kind == BodyKind::dynamic ? parts.travel[i][j] / h : parts.velocity[i][j];
-    }
+// The velocities that take the two bodies where they were found to go.
+void set_way_velocity(const Scene& scene, double h, Parts& parts, const Contact& pair) {
+  for (const int body : {pair.body_a, pair.body_b}) {
+    const auto b = static_cast<Index>(body);
+    parts.way_velocity[b] = parts.velocity[b];
+    if (!is_dynamic(scene, body)) continue;
+    for (Index j = 0; j < 3; ++j) parts.way_velocity[b][j] = parts.travel[b][j] / h;
   }
 }
 
+// The contacts are in the order of their ids.
 bool has_listed(const Parts& parts, const Contact& pair) {
-  return std::any_of(parts.contacts.begin(), parts.contacts.end(),
-                     [&](const StepContact& c) { return c.is_listed && is_of_pair(c.contact, pair); });
+  const auto first =
+      std::lower_bound(parts.contacts.begin(), parts.contacts.end(), pair,
+                       [](const StepContact& c, const Contact& p) { return pair_of(c.contact) < pair_of(p); });
+  for (auto c = first; c != parts.contacts.end() && is_of_pair(c->contact, pair); ++c) {
+    if (c->is_listed) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -271,23 +281,23 @@ double bend_of(const Contact& contact, const Motion& a, const Motion& b, double 
 }
 
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
-  const std::vector<Contact>& found = parts.finder.find(parts.frames, parts.reach);
+  const std::vector<Contact>& found = parts.finder.find(parts.poses, parts.reach);
   parts.contacts.clear();
   parts.fast_pairs.clear();
   for (Index begin = 0, end = 0; begin < found.size(); begin = end) {
     while (end < found.size() && is_of_pair(found[end], found[begin])) ++end;
     const std::span<const Contact> pair = std::span(found).subspan(begin, end - begin);
-    const auto passing = find_passing(scene, h, parts, pair);
+    const auto passing = find_passing(h, parts, pair);
     if (!passing && is_fast(parts, pair)) {
-      parts.fast_pairs.push_back(pair.front());
-      append_contacts_ahead(scene, h, parts, pair.front(), parts.middle_velocity, parts.contacts);
+      parts.fast_pairs.push_back(nearest_of(pair));
+      append_contacts_ahead(scene, h, parts, nearest_of(pair), parts.middle_velocity, parts.contacts);
       continue;
     }
     for (const Contact& contact : passing ? std::span(&*passing, 1) : pair) {
       StepContact& c = parts.contacts.emplace_back();
       c.contact = contact;
-      set_geometry(scene, parts, c, parts.frames[static_cast<Index>(contact.body_a)].position,
-                   parts.frames[static_cast<Index>(contact.body_b)].position);
+      set_geometry(scene, parts, c, parts.poses[static_cast<Index>(contact.body_a)].position,
+                   parts.poses[static_cast<Index>(contact.body_b)].position);
       if (!passing && &contact != &pair.front()) share_friction_line(parts.contacts.end()[-2], c);
     }
   }
@@ -303,10 +313,12 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
 }
 
 bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
-  set_way_velocity(scene, h, parts);
-  std::vector<StepContact> added;
+  std::vector<StepContact>& added = parts.added;
+  added.clear();
   for (const Contact& pair : parts.fast_pairs) {
-    if (!has_listed(parts, pair)) append_contacts_ahead(scene, h, parts, pair, parts.way_velocity, added);
+    if (has_listed(parts, pair)) continue;
+    set_way_velocity(scene, h, parts, pair);
+    append_contacts_ahead(scene, h, parts, pair, parts.way_velocity, added);
   }
   if (added.empty()) return false;
   std::erase_if(parts.contacts, [&](const StepContact& c) {
@@ -327,9 +339,9 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
 
 void stop_at_impacts(const Scene& scene, double h, Parts& parts) {
   for (const Contact& pair : parts.fast_pairs) {
-    set_way_velocity(scene, h, parts);
-    if (has_listed(parts, pair) && !is_deep_at_end(scene, h, parts, pair)) continue;
-    const auto impact = find_impact(scene, h, parts, pair, parts.way_velocity);
+    set_way_velocity(scene, h, parts, pair);
+    if (has_listed(parts, pair) && !is_deep_at_end(h, parts, pair)) continue;
+    const auto impact = find_impact(h, parts, pair, parts.way_velocity);
     if (!impact) continue;
     for (const int body : {pair.body_a, pair.body_b}) {
       if (!is_dynamic(scene, body)) continue;

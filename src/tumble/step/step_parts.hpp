@@ -9,6 +9,7 @@
 #include "tumble/contact/island_solver.hpp"
 #include "tumble/geometry/detect_contacts.hpp"
 #include "tumble/geometry/gap_rate.hpp"
+#include "tumble/geometry/shape_size.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/step/step_report.hpp"
 #include "tumble/step/time_step.hpp"
@@ -64,11 +65,6 @@ struct IslandOutcome {
   double created = 0.0;     // [J], above round-off
 };
 
-struct PartSize {
-  double radius = 0.0;     // [m] of a circle that holds the part
-  double thickness = 0.0;  // [m] its smallest width
-};
-
 struct StepWorkspace::Parts {
   explicit Parts(const Scene& scene);
 
@@ -79,11 +75,10 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> mass;          // (m, m, I)
   std::vector<double> radius;         // of the circle about the origin of the body's frame that holds it
 
-  std::vector<std::vector<PartSize>> sizes;  // per body, per part
+  std::vector<std::vector<ShapeSize>> sizes;  // per body, per part
 
   // Of a step, per body.
   std::vector<Pose> poses;
-  std::vector<Frame> frames;
   std::vector<double> reach;             // [m]
   std::vector<Vector3> velocity;         // at the start; of kinematic bodies, their mean during the step
   std::vector<Vector3> force;            // F_x, F_y, torque: gravity and wrench [N, N m]
@@ -97,7 +92,8 @@ struct StepWorkspace::Parts {
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
-  std::vector<Contact> fast_pairs;  // of each one contact, for its ids: looked at along their way
+  std::vector<Contact> fast_pairs;  // of each the nearest contact: looked at along their way
+  std::vector<StepContact> added;   // of fast pairs
   std::vector<ContactPoint> points;
   std::vector<int> parent;             // union-find over bodies
   std::vector<int> island_of;          // root body -> island

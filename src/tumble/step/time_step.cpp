@@ -4,11 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <variant>
 
 #include <fmt/format.h>
 
-#include "tumble/math/numeric.hpp"
 #include "tumble/step/step_parts.hpp"
 
 namespace tumble {
@@ -21,43 +19,11 @@ using Parts = StepWorkspace::Parts;
 constexpr double k_slack = 0.005;
 constexpr int k_max_looks = 8;
 
-double radius_of(const Shape& shape) {
-  if (const auto* polygon = std::get_if<RoundedPolygon>(&shape)) {
-    double largest = 0.0;
-    for (const Vector2 vertex : polygon->vertices) largest = std::max(largest, length(vertex));
-    return largest + polygon->rounding;
-  }
-  if (const auto* ellipse = std::get_if<Ellipse>(&shape)) {
-    return length(ellipse->pose.position) + std::max(ellipse->semi_axis_x, ellipse->semi_axis_y);
-  }
-  if (const auto* terrain = std::get_if<Terrain>(&shape)) {
-    double largest = 0.0;
-    for (const Vector2 point : terrain->points) largest = std::max(largest, length(point));
-    return largest;
-  }
-  return HUGE_VAL;  // a half-plane
-}
-
-PartSize size_of(const Shape& shape) {
-  if (const auto* polygon = std::get_if<RoundedPolygon>(&shape)) {
-    const std::vector<Vector2>& v = polygon->vertices;
-    PartSize size{0.0, v.size() < 3 ? 0.0 : HUGE_VAL};
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const Vector2 side = v[(i + 1) % v.size()] - v[i];
-      double width = 0.0;
-      for (const Vector2 vertex : v) {
-        size.radius = std::max(size.radius, 0.5 * length(vertex - v[i]));
-        if (v.size() > 2) width = std::max(width, cross(side, vertex - v[i]) / length(side));
-      }
-      size.thickness = std::min(size.thickness, width);
-    }
-    return {size.radius + polygon->rounding, size.thickness + 2.0 * polygon->rounding};
-  }
-  if (const auto* ellipse = std::get_if<Ellipse>(&shape)) {
-    return {std::max(ellipse->semi_axis_x, ellipse->semi_axis_y),
-            2.0 * std::min(ellipse->semi_axis_x, ellipse->semi_axis_y)};
-  }
-  return {HUGE_VAL, HUGE_VAL};
+bool is_finite(const BodyState& b) {
+  // 0 times a number is 0 only if that is finite.
+  const double zero = 0.0 * b.pose.position.x + 0.0 * b.pose.position.y + 0.0 * b.pose.angle + 0.0 * b.velocity[0] +
+                      0.0 * b.velocity[1] + 0.0 * b.velocity[2];
+  return zero == 0.0;
 }
 
 void check(const Scene& scene, double step_size, const State& state) {
@@ -69,12 +35,8 @@ void check(const Scene& scene, double step_size, const State& state) {
                                             scene.bodies.size(), state.bodies.size()));
   }
   for (Index i = 0; i < state.bodies.size(); ++i) {
-    const BodyState& b = state.bodies[i];
-    const std::array<double, 6> values = {b.pose.position.x, b.pose.position.y, b.pose.angle,
-                                          b.velocity[0],     b.velocity[1],     b.velocity[2]};
-    if (!all_finite(values)) {
-      throw std::invalid_argument(fmt::format("state.bodies[{}] ({}): must be finite", i, scene.bodies[i].name));
-    }
+    if (is_finite(state.bodies[i])) continue;
+    throw std::invalid_argument(fmt::format("state.bodies[{}] ({}): must be finite", i, scene.bodies[i].name));
   }
 }
 
@@ -84,7 +46,6 @@ void predict(const Scene& scene, double h, const State& state, Parts& parts) {
     const Body& body = scene.bodies[i];
     const BodyState& now = state.bodies[i];
     parts.poses[i] = now.pose;
-    parts.frames[i] = frame_of(now.pose);
     if (body.kind == BodyKind::fixed) continue;
     if (body.kind == BodyKind::kinematic) {
       const Pose next = prescribed_pose(body, state.time + h);
@@ -115,12 +76,12 @@ void predict(const Scene& scene, double h, const State& state, Parts& parts) {
       parts.travel[i][j] = h * parts.middle_velocity[i][j];
     }
     const double radius = parts.radius[i];
-    const double speed =
-        std::max(std::sqrt(v[0] * v[0] + v[1] * v[1]), std::sqrt(free[0] * free[0] + free[1] * free[1]));
+    const double speed = std::sqrt(std::max(v[0] * v[0] + v[1] * v[1], free[0] * free[0] + free[1] * free[1]));
     const double spin = std::max(std::abs(v[2]), std::abs(free[2]));
     parts.reach[i] = h * (speed + spin * radius) + k_slack * radius;
   }
 }
+
 // True if no body went further than its contacts were looked for; else they are looked for further away.
 bool is_within_reach(const Scene& scene, Parts& parts) {
   bool is_within = true;
@@ -183,16 +144,11 @@ StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
     const Vector3 m = {body.mass, body.mass, body.moment_of_inertia};
     mass.push_back(moves ? m : Vector3{});
     inverse_mass.push_back(moves ? Vector3{1.0 / m[0], 1.0 / m[1], 1.0 / m[2]} : Vector3{});
-    double largest = 0.0;
+    radius.push_back(radius_of(body));
     sizes.emplace_back();
-    for (const Part& part : body.parts) {
-      largest = std::max(largest, radius_of(part.shape));
-      sizes.back().push_back(size_of(part.shape));
-    }
-    radius.push_back(largest);
+    for (const Part& part : body.parts) sizes.back().push_back(size_of(part.shape));
   }
   poses.resize(n);
-  frames.resize(n);
   reach.assign(n, 0.0);
   for (std::vector<Vector3>* values : {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity,
                                        &travel, &shift, &way_velocity, &force_velocity}) {

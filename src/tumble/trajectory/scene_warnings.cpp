@@ -43,10 +43,10 @@ double size_of(const Body& body) {
 // ---- Overlaps ----
 
 void warn_of_overlaps(const Scene& scene, std::vector<SceneWarning>& warnings) {
-  std::vector<Frame> frames;
-  for (const Body& body : scene.bodies) frames.push_back(frame_of(body.pose));
+  std::vector<Pose> poses;
+  for (const Body& body : scene.bodies) poses.push_back(body.pose);
   ContactFinder finder(scene);
-  for (const Contact& contact : finder.find(frames, std::vector<double>(scene.bodies.size(), 0.0))) {
+  for (const Contact& contact : finder.find(poses, std::vector<double>(scene.bodies.size(), 0.0))) {
     if (contact.gap >= 0.0) continue;
     double size = std::max(std::abs(contact.point_a.x), std::abs(contact.point_a.y));
     for (const int index : {contact.body_a, contact.body_b}) {
