@@ -10,28 +10,17 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_round_off = 1e-12;  // [-] of the size of the bodies: overlap below is none
-constexpr double k_unmoved = 1e-15;    // [-] of the same: the sweeps have arrived
-constexpr int k_max_sweeps = 1000;     // what overlap they leave is met by those of the next step
-constexpr int k_fast_sweeps = 10;      // of the fast solver
 
-// Both bodies of a contact: f(body, row of the normal).
-template <typename F>
-void for_bodies(const BodyContact& rows, const F& f) {
-  if (rows.body_a >= 0) f(static_cast<Index>(rows.body_a), rows.normal_a);
-  if (rows.body_b >= 0) f(static_cast<Index>(rows.body_b), rows.normal_b);
-}
-
-double overlap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
+double gap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
   double gap = c.gap_at_start + c.way_bend + h * c.rows.offset;
-  for_bodies(c.rows, [&](Index b, const Vector3& row) { gap += dot(row, parts.travel[b]) + dot(row, parts.shift[b]); });
-  return -gap;
+  for_bodies(c.rows, [&](Index b, const Vector3& row, const Vector3&) { gap += dot(row, parts.travel[b]); });
+  return gap;
 }
 
 }  // namespace
 
 void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
               double lost) {
-  const int max_sweeps = settings.solver == ContactSolver::fast ? k_fast_sweeps : k_max_sweeps;
   const auto at = [&](int i) -> StepContact& { return parts.contacts[static_cast<Index>(i)]; };
   // The bend of the way that was found, with slips that impacts may have changed.
   const auto motion_of = [&](int body) {
@@ -48,44 +37,45 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
   }
   const bool has_overlap = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
     double size = 0.0;
-    for_bodies(at(i).rows, [&](Index b, const Vector3&) { size = std::max(size, parts.radius[b]); });
-    return overlap_after(parts, at(i), h) > k_round_off * size;
+    for_bodies(at(i).rows, [&](Index b, const Vector3&, const Vector3&) { size = std::max(size, parts.radius[b]); });
+    return gap_after(parts, at(i), h) < -k_round_off * size;
   });
   if (!has_overlap) return;
+  list_bodies(parts, contacts);
 
-  // Projected Gauss-Seidel on the multipliers of gap >= 0.
-  for (const int i : contacts) at(i).push = 0.0;
-  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
-    bool has_moved = false;
-    for (const int i : contacts) {
-      StepContact& c = at(i);
-      double response = 0.0, size = 0.0;
-      for_bodies(c.rows, [&](Index b, const Vector3& n) {
-        for (Index j = 0; j < 3; ++j) response += n[j] * n[j] * parts.inverse_mass[b][j];
-        size = std::max(size, parts.radius[b]);
-      });
-      const double push = std::max(0.0, c.push + overlap_after(parts, c, h) / response);
-      has_moved = has_moved || std::abs(push - c.push) * response > k_unmoved * size;
-      for_bodies(c.rows, [&](Index b, const Vector3& n) {
-        for (Index j = 0; j < 3; ++j) parts.shift[b][j] += parts.inverse_mass[b][j] * n[j] * (push - c.push);
-      });
-      c.push = push;
-    }
-    if (!has_moved) break;
+  // The LCP of frictionless contacts, with ways [m] for velocities and multipliers [kg m] for impulses.
+  IslandSolver& solver = parts.solver;
+  solver.system.inverse_mass.clear();
+  solver.system.velocity.assign(parts.island_body.size(), Vector3{});
+  solver.system.contacts.clear();
+  solver.modes.clear();
+  solver.impulses.assign(2 * contacts.size(), 0.0);
+  for (const int body : parts.island_body) {
+    solver.system.inverse_mass.push_back(parts.inverse_mass[static_cast<Index>(body)]);
   }
+  const auto local = [&](int body) { return body < 0 ? -1 : parts.local_body[static_cast<Index>(body)]; };
+  for (const int i : contacts) {
+    BodyContact& rows = solver.system.contacts.emplace_back(at(i).rows);
+    rows.body_a = local(rows.body_a);
+    rows.body_b = local(rows.body_b);
+    rows.offset = gap_after(parts, at(i), h);
+    rows.tangent_offset = 0.0;
+    rows.friction = 0.0;
+    solver.modes.push_back(rows.offset < 0.0 ? ContactMode::slip_right : ContactMode::open);
+  }
+  solver.solve({settings.solver, settings.num_sweeps});  // what overlap is left is met in the next step
 
   double work = 0.0;  // against the forces
-  for (const int body : parts.island_body) {
-    const auto b = static_cast<Index>(body);
-    work -= dot(parts.force[b], parts.shift[b]);
+  for (Index k = 0; k < parts.island_body.size(); ++k) {
+    work -= dot(parts.force[static_cast<Index>(parts.island_body[k])], solver.velocity[k]);
   }
   const double paid = std::max(lost, 0.0);
   const double share = work > paid ? paid / work : 1.0;
-  for (const int body : parts.island_body) {
-    const auto b = static_cast<Index>(body);
-    for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];
-    parts.shift[b] = {};
+  for (Index k = 0; k < parts.island_body.size(); ++k) {
+    Vector3& travel = parts.travel[static_cast<Index>(parts.island_body[k])];
+    for (Index j = 0; j < 3; ++j) travel[j] += share * solver.velocity[k][j];
   }
+  forget_bodies(parts);
 }
 
 }  // namespace tumble

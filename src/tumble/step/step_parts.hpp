@@ -54,7 +54,6 @@ struct StepContact {
   bool sticks = false;       // closed, without slip
   double restitution = 0.0;  // that was at work
   double way_bend = 0.0;     // [m] of the way found
-  double push = 0.0;         // [kg m] of `separate`
 };
 
 struct IslandOutcome {
@@ -63,6 +62,8 @@ struct IslandOutcome {
   int factorisations = 0;
   bool is_at_work = false;  // some contact was touched
   double created = 0.0;     // [J], above round-off
+  double lost = 0.0;        // [J]
+  bool has_moved = false;   // otherwise than freely, and was not yet separated
 };
 
 // Two parts of which one may go far in the step, against their sizes: looked at along their way.
@@ -95,10 +96,10 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> next_velocity;
   std::vector<Vector3> force_velocity;  // after the forces and the first impacts: forces work along its mean with v
   std::vector<Vector3> travel;          // x, y, angle
-  std::vector<Vector3> shift;           // what `separate` adds to it; 0 outside
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
+  std::vector<StepContact> last_contacts;  // of the look before
   std::vector<FastPair> fast_pairs;
   std::vector<StepContact> added;  // of fast pairs
   std::vector<ContactPoint> points;
@@ -107,13 +108,18 @@ struct StepWorkspace::Parts {
   std::vector<int> island_begin;       // islands + 1
   std::vector<int> island_contact;     // indices into contacts
   std::vector<IslandOutcome> outcome;  // of an island, at the index of its first contact
+  std::vector<IslandOutcome> last_outcome;
   IslandSolver solver;
-  std::vector<int> local_body, island_body;
-  std::vector<Vector3> way_velocity;  // of the LCP for the way
+  std::vector<int> local_body, island_body;  // scene -> island, -1 if not of it, and back
+  std::vector<Vector3> way_velocity;         // of the LCP for the way
 };
 
 // The contacts in reach, with what is known of them before anything is solved, in the order of their ids.
 void prepare_contacts(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
+
+// The same once islands were stepped, where bodies may go further than thought at first. Islands whose contacts stay
+// the same keep their motion.
+void look_further(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
 
 // [m] What turning and curved surfaces add to the gap in the step, to second order, where the two bodies move with
 // these velocities; 0 where that says little.
@@ -132,6 +138,10 @@ void stop_at_impacts(const Scene& scene, double step_size, StepWorkspace::Parts&
 void step_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);
 
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
+
+// Numbers the dynamic bodies of one island, until the numbers are taken back.
+void list_bodies(StepWorkspace::Parts& parts, IslandContacts island);
+void forget_bodies(StepWorkspace::Parts& parts);
 
 // Velocities and travel of the bodies of one island, impulses and modes of its contacts.
 IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, double step_size,
