@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "tumble/geometry/pair_contacts.hpp"
@@ -12,6 +13,8 @@ namespace tumble {
 namespace {
 
 constexpr double k_margin = 4.0;  // [-] of the reach: for about as many steps
+constexpr double k_round = 0.75;  // [-] of the thickness: a circle as small holds a part that need not be placed
+constexpr double k_round_off = 4.0 * std::numeric_limits<double>::epsilon();
 
 Box with_margin(const Box& box, double margin) {
   return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
@@ -30,7 +33,10 @@ ContactFinder::ContactFinder(const Scene& scene) {
                              std::holds_alternative<PlacedTerrain>(shape.placed());
       (is_ground ? ground_ : bounded_).push_back(static_cast<int>(parts_.size()));
       const Box box = is_ground ? Box{{-HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL}} : bounding_box(shape.placed(), 0.0);
-      parts_.push_back({shape, shape, static_cast<int>(i), static_cast<int>(k), is_ground, box});
+      const double radius = radius_of(body.parts[k].shape);
+      const bool is_round = radius <= k_round * size_of(body.parts[k].shape).thickness && !is_ground;
+      parts_.push_back(
+          {shape, shape, static_cast<int>(i), static_cast<int>(k), is_ground, is_round ? radius : 0.0, box});
     }
   }
   boxes_.resize(bounded_.size());
@@ -76,16 +82,25 @@ void ContactFinder::place(int body, const Pose& pose) {
   }
 }
 
+Box ContactFinder::margin_box(const PlacedPart& part) const {
+  const PlacedBody& body = bodies_[part.body];
+  if (part.circle == 0.0) return with_margin(part.box, body.margin);
+  const Vector2 centre = body.boxed_at.position;
+  return with_margin({centre, centre},
+                     part.circle + body.margin + k_round_off * (std::abs(centre.x) + std::abs(centre.y)));
+}
+
 void ContactFinder::make_boxes(const std::vector<Pose>& poses, const std::vector<double>& reach) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    place(static_cast<int>(i), poses[i]);
     bodies_[i].boxed_at = poses[i];
     bodies_[i].margin = k_margin * reach[i];
   }
   for (std::size_t i = 0; i < bounded_.size(); ++i) {
     const PlacedPart& part = parts_[bounded_[i]];
-    boxes_[i] = with_margin(part.box, bodies_[part.body].margin);
+    if (part.circle == 0.0) place(part.body, poses[part.body]);
+    boxes_[i] = margin_box(part);
   }
+  for (const int i : ground_) place(parts_[i].body, poses[parts_[i].body]);
 }
 
 void ContactFinder::find_pairs() {

@@ -34,7 +34,8 @@ class ContactFinder {
     MovedShape shape, moved;
     int body = 0, part = 0;
     bool is_ground = false;
-    Box box;  // of the shape; infinite for ground
+    double circle = 0.0;  // radius of the one about its body, if that is nearly as small as its box; else 0
+    Box box;              // of the shape; infinite for ground
   };
   struct PlacedBody {
     std::size_t first_part = 0, end_part = 0;
@@ -51,6 +52,7 @@ class ContactFinder {
 
   bool do_boxes_hold(const std::vector<Pose>& poses, const std::vector<double>& reach) const;
   void place(int body, const Pose& pose);
+  Box margin_box(const PlacedPart& part) const;
   void make_boxes(const std::vector<Pose>& poses, const std::vector<double>& reach);
   void find_pairs();
   void sort_pairs();

@@ -45,7 +45,8 @@ Box bounding_box(const PlacedHalfPlane&, double) {
   return {{-k_infinity, -k_infinity}, {k_infinity, k_infinity}};
 }
 
-PlacedPolygon::PlacedPolygon(const RoundedPolygon& shape) : rounding(shape.rounding) {
+PlacedPolygon::PlacedPolygon(const RoundedPolygon& shape)
+    : num_corners(static_cast<int>(shape.vertices.size())), rounding(shape.rounding) {
   const std::size_t n = shape.vertices.size();
   for (std::size_t i = 0; i < n; ++i) {
     Corner corner{shape.vertices[i], {}, 0.0};

@@ -35,12 +35,13 @@ struct PlacedPolygon {
   };
   explicit PlacedPolygon(const RoundedPolygon& shape);
 
-  int count() const { return static_cast<int>(corners.size()); }
+  int count() const { return num_corners; }
   int sides() const { return count() < 2 ? 0 : count(); }  // both faces of a segment are sides
   int next(int i) const { return i + 1 < count() ? i + 1 : 0; }
   int previous(int i) const { return i > 0 ? i - 1 : count() - 1; }
 
   std::vector<Corner> corners;
+  int num_corners = 0;
   double rounding = 0.0;
   Vector2 position;  // of the body
   std::vector<Corner> local;

@@ -31,35 +31,52 @@ double height(const PlacedPolygon::Corner& side, Vector2 corner, Vector2 offset)
   return (dot(side.normal, corner) + dot(side.normal, offset)) - side.offset;
 }
 
+// The corner of `shape` that is lowest along a direction, and how low; the first of several. `guess` wins where no
+// corner is lower.
+struct Lowest {
+  double height;
+  int corner;
+};
+Lowest lowest_corner(const PlacedPolygon& shape, Vector2 normal, int guess) {
+  const PlacedPolygon::Corner* const corners = shape.corners.data();
+  Lowest lowest{dot(normal, corners[guess].vertex), guess};
+  for (int k = 0, count = shape.count(); k < count; ++k) {
+    const double h = dot(normal, corners[k].vertex);
+    const bool is_lower = h < lowest.height;  // no branch: which one it is cannot be foretold
+    lowest.height = is_lower ? h : lowest.height;
+    lowest.corner = is_lower ? k : lowest.corner;
+  }
+  return lowest;
+}
+
+// The side that faces a point most.
+int facing_side(const PlacedPolygon& own, Vector2 point) {
+  const PlacedPolygon::Corner* const corners = own.corners.data();
+  int facing = 0;
+  double most = -k_infinity;
+  for (int i = 0, sides = own.sides(); i < sides; ++i) {
+    const double distance = dot(corners[i].normal, point) - corners[i].offset;
+    const bool is_more = distance > most;
+    most = is_more ? distance : most;
+    facing = is_more ? i : facing;
+  }
+  return facing;
+}
+
 // Sides that separate less than `floor` are not looked at.
 SideSeparation separation(const PlacedPolygon& own, const PlacedPolygon& other, Vector2 offset, double floor) {
   const int sides = own.sides();
   // The side that faces the other's position most is a good guess: most others are ruled out by a single corner.
-  int start = 0;
-  double most = -k_infinity;
-  for (int i = 0; i < sides; ++i) {
-    const double facing = dot(own.corners[i].normal, offset) - own.corners[i].offset;
-    if (facing > most) {
-      most = facing;
-      start = i;
-    }
-  }
+  int i = sides > 0 ? facing_side(own, offset) : 0;
   SideSeparation best;
   int corner = 0;
-  for (int count = 0, i = start; count < sides; ++count, i = own.next(i)) {
+  for (int count = 0; count < sides; ++count, i = i + 1 < sides ? i + 1 : 0) {
     const PlacedPolygon::Corner& side = own.corners[i];
     if (const double bound = height(side, other.corners[corner].vertex, offset);
         bound <= best.distance || bound < floor) {
       continue;
     }
-    double lowest = dot(side.normal, other.corners[corner].vertex);
-    for (int k = 0; k < other.count(); ++k) {
-      const double h = dot(side.normal, other.corners[k].vertex);
-      if (h < lowest) {
-        lowest = h;
-        corner = k;
-      }
-    }
+    corner = lowest_corner(other, side.normal, corner).corner;
     const double distance = height(side, other.corners[corner].vertex, offset);
     if (distance > best.distance && distance >= floor) best = {distance, i, corner};
   }

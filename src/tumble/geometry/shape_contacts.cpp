@@ -28,7 +28,8 @@ void append_sorted_contacts(const PlacedShape& a, const PlacedShape& b, double r
   const auto *polygon_a = std::get_if<PlacedPolygon>(&a), *polygon_b = std::get_if<PlacedPolygon>(&b);
   if (polygon_a && polygon_b) {  // nearly always: no look into a table of functions
     append_contacts(*polygon_a, *polygon_b, reach, contacts);
-    return sort_by_feature(contacts, first);
+    if (contacts.size() > first + 1) sort_by_feature(contacts, first);
+    return;
   }
   std::visit(
       [&](const auto& shape_a, const auto& shape_b) {

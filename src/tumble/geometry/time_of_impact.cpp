@@ -10,6 +10,7 @@ namespace tumble {
 namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
+constexpr double k_rounding = 1e-6;  // [-] of gaps, generously
 
 // Of the farthest point from the position of the body. Ground counts as without end: it may be large, and need not be
 // convex.
@@ -52,9 +53,10 @@ double fastest_approach(const Mover& a, const Mover& b, double duration) {
 }
 
 // How far a point moves along a direction, n . (r' - r) of r turned by `angle`, at least: its second derivative by the
-// angle is no larger than |r|.
+// angle is -n . r', which is no less than -(n . r + |angle| |r|).
 double least_advance(Vector2 n, Vector2 r, double angle) {
-  return dot(n, turned_left(r)) * angle - 0.5 * angle * angle * length(r);
+  const double highest = dot(n, r) + std::abs(angle) * length(r);
+  return dot(n, turned_left(r)) * angle - 0.5 * angle * angle * std::max(highest, 0.0);
 }
 
 // The least of n . p over the points p of a shape about its position, now and after it has turned, each at least.
@@ -111,19 +113,22 @@ std::optional<Impact> time_of_impact(MovedShape& a, const Pose& pose_a, const Ve
   Mover mover_a{a, pose_a, velocity_a}, mover_b{b, pose_b, velocity_b};
   const double approach = fastest_approach(mover_a, mover_b, duration);
   const double size = std::min(mover_a.radius, mover_b.radius);
-  double time = 0.0;
+  double time = 0.0, reach = k_infinity;
   for (int step = 0;; ++step) {
     mover_a.move_to(time);
     mover_b.move_to(time);
     contacts.clear();
-    append_sorted_contacts(a.placed(), b.placed(), k_infinity, contacts);
+    append_sorted_contacts(a.placed(), b.placed(), reach, contacts);
     const auto closest =
         std::min_element(contacts.begin(), contacts.end(), [](const auto& c, const auto& d) { return c.gap < d.gap; });
     // Beyond the end of terrain, and below it, nothing is near; the body may come back from there.
     const double gap = closest == contacts.end() ? 0.5 * size : closest->gap;
     if (closest != contacts.end() && (gap <= distance || step == k_most_advances)) return Impact{time, *closest};
     if (!(approach > 0.0) || time >= duration || step >= k_most_advances) return std::nullopt;
-    time = std::min(duration, time + std::max(gap - 0.5 * distance, 0.5 * distance) / approach);
+    const double way = std::max(gap - 0.5 * distance, 0.5 * distance);
+    // The shapes part no faster than they approach each other: there is a contact this near, and no need for others.
+    reach = closest == contacts.end() ? k_infinity : (gap + way) * (1.0 + k_rounding);
+    time = std::min(duration, time + way / approach);
   }
 }
 

@@ -65,6 +65,9 @@ void find_islands(Parts& parts) {
 }  // namespace
 
 void step_islands(double h, const StepSettings& settings, Parts& parts) {
+  parts.island_begin.assign(1, 0);
+  parts.island_contact.clear();
+  if (parts.contacts.empty()) return;
   do {
     find_islands(parts);
     for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {

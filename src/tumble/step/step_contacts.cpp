@@ -150,17 +150,23 @@ void recall(const ContactMemory* memory, double h, StepContact& c) {
       memory || c.gap + c.bend + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
 }
 
-// When the two parts first meet while their bodies move with these velocities. `pair`: a contact of them.
-std::optional<Impact> find_impact(double h, Parts& parts, const Contact& pair, const std::vector<Vector3>& velocity) {
-  const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
-  const double distance = k_touching * size_of_pair(parts, pair).radius;
-  if (stay_apart(parts.finder.shape(pair.body_a, pair.part_a), velocity[a],
-                 parts.finder.shape(pair.body_b, pair.part_b), velocity[b], pair.normal, h, 2.0 * distance)) {
-    return std::nullopt;
+// When the two parts first meet while their bodies move with these velocities.
+std::optional<Impact> find_impact(double h, Parts& parts, FastPair& pair, const std::vector<Vector3>& velocity) {
+  const Contact& c = pair.nearest;
+  const auto a = static_cast<Index>(c.body_a), b = static_cast<Index>(c.body_b);
+  const std::array<Vector3, 2> velocities = {velocity[a], velocity[b]};
+  if (pair.misses && velocities == pair.missing_velocity) return std::nullopt;
+  const double distance = k_touching * size_of_pair(parts, c).radius;
+  std::optional<Impact> impact;
+  if (!stay_apart(parts.finder.shape(c.body_a, c.part_a), velocity[a], parts.finder.shape(c.body_b, c.part_b),
+                  velocity[b], c.normal, h, 2.0 * distance)) {
+    impact =
+        time_of_impact(parts.finder.moved(c.body_a, c.part_a), parts.poses[a], velocity[a],
+                       parts.finder.moved(c.body_b, c.part_b), parts.poses[b], velocity[b], h, distance, parts.points);
   }
-  return time_of_impact(parts.finder.moved(pair.body_a, pair.part_a), parts.poses[a], velocity[a],
-                        parts.finder.moved(pair.body_b, pair.part_b), parts.poses[b], velocity[b], h, distance,
-                        parts.points);
+  pair.misses = !impact;
+  pair.missing_velocity = velocities;
+  return impact;
 }
 
 // Of point_b seen from point_a.
@@ -210,10 +216,11 @@ void find_contacts_at(Parts& parts, const Contact& pair, const std::vector<Vecto
 
 // Appends the contacts that two parts have where they first meet when their bodies move with these velocities. The gap
 // is the way that is left to there, along the normal that they will have.
-void append_contacts_ahead(const Scene& scene, double h, Parts& parts, const Contact& pair,
+void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair& fast,
                            const std::vector<Vector3>& velocity, std::vector<StepContact>& contacts) {
-  const auto impact = find_impact(h, parts, pair, velocity);
+  const auto impact = find_impact(h, parts, fast, velocity);
   if (!impact) return;
+  const Contact& pair = fast.nearest;
   const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
   find_contacts_at(parts, pair, velocity, impact->time, parts.reach[a] + parts.reach[b]);
   const auto position_of = [&](Index body) {
@@ -289,8 +296,8 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     const std::span<const Contact> pair = std::span(found).subspan(begin, end - begin);
     const auto passing = find_passing(h, parts, pair);
     if (!passing && is_fast(parts, pair)) {
-      parts.fast_pairs.push_back(nearest_of(pair));
-      append_contacts_ahead(scene, h, parts, nearest_of(pair), parts.middle_velocity, parts.contacts);
+      parts.fast_pairs.push_back({nearest_of(pair)});
+      append_contacts_ahead(scene, h, parts, parts.fast_pairs.back(), parts.middle_velocity, parts.contacts);
       continue;
     }
     for (const Contact& contact : passing ? std::span(&*passing, 1) : pair) {
@@ -315,9 +322,9 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
 bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
   std::vector<StepContact>& added = parts.added;
   added.clear();
-  for (const Contact& pair : parts.fast_pairs) {
-    if (has_listed(parts, pair)) continue;
-    set_way_velocity(scene, h, parts, pair);
+  for (FastPair& pair : parts.fast_pairs) {
+    if (has_listed(parts, pair.nearest)) continue;
+    set_way_velocity(scene, h, parts, pair.nearest);
     append_contacts_ahead(scene, h, parts, pair, parts.way_velocity, added);
   }
   if (added.empty()) return false;
@@ -338,12 +345,13 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
 }
 
 void stop_at_impacts(const Scene& scene, double h, Parts& parts) {
-  for (const Contact& pair : parts.fast_pairs) {
-    set_way_velocity(scene, h, parts, pair);
-    if (has_listed(parts, pair) && !is_deep_at_end(h, parts, pair)) continue;
+  for (FastPair& pair : parts.fast_pairs) {
+    const Contact& c = pair.nearest;
+    set_way_velocity(scene, h, parts, c);
+    if (has_listed(parts, c) && !is_deep_at_end(h, parts, c)) continue;
     const auto impact = find_impact(h, parts, pair, parts.way_velocity);
     if (!impact) continue;
-    for (const int body : {pair.body_a, pair.body_b}) {
+    for (const int body : {c.body_a, c.body_b}) {
       if (!is_dynamic(scene, body)) continue;
       for (double& way : parts.travel[static_cast<Index>(body)]) way *= impact->time / h;
     }

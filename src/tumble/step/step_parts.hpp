@@ -65,6 +65,13 @@ struct IslandOutcome {
   double created = 0.0;     // [J], above round-off
 };
 
+// Two parts of which one may go far in the step, against their sizes: looked at along their way.
+struct FastPair {
+  Contact nearest;  // at the start of the step
+  bool misses = false;
+  std::array<Vector3, 2> missing_velocity{};  // of a and b, with which they are known not to meet
+};
+
 struct StepWorkspace::Parts {
   explicit Parts(const Scene& scene);
 
@@ -92,8 +99,8 @@ struct StepWorkspace::Parts {
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
-  std::vector<Contact> fast_pairs;  // of each the nearest contact: looked at along their way
-  std::vector<StepContact> added;   // of fast pairs
+  std::vector<FastPair> fast_pairs;
+  std::vector<StepContact> added;  // of fast pairs
   std::vector<ContactPoint> points;
   std::vector<int> parent;             // union-find over bodies
   std::vector<int> island_of;          // root body -> island

@@ -40,58 +40,66 @@ void check(const Scene& scene, double step_size, const State& state) {
   }
 }
 
+// Where a kinematic body goes.
+void prescribe(const Body& body, double h, const State& state, Index i, Parts& parts) {
+  const Pose now = state.bodies[i].pose, next = prescribed_pose(body, state.time + h);
+  const Vector2 way = next.position - now.position;
+  parts.travel[i] = {way.x, way.y, next.angle - now.angle};
+  for (Index j = 0; j < 3; ++j) parts.velocity[i][j] = parts.travel[i][j] / h;
+  parts.free_velocity[i] = parts.middle_velocity[i] = parts.next_velocity[i] = parts.velocity[i];
+  const double turn = std::abs(parts.travel[i][2]);
+  parts.reach[i] = length(way) + (turn > 0.0 ? turn * parts.radius[i] : 0.0);
+}
+
+// How a dynamic body moves by its forces.
+void fall(const Body& body, Vector2 gravity, double h, const State& state, Index i, Parts& parts) {
+  Vector3& wrench = parts.wrench[i];
+  wrench = {};
+  if (!body.wrenches.empty()) wrench = mean_wrench(body, state.time, state.time + h);
+  const Vector3 force = {body.mass * gravity.x + wrench[0], body.mass * gravity.y + wrench[1], wrench[2]};
+  const Vector3 damping = {body.linear_damping, body.linear_damping, body.angular_damping};
+  const Vector3 &v = state.bodies[i].velocity, &inverse_mass = parts.inverse_mass[i];
+  Vector3 free;
+  for (Index j = 0; j < 3; ++j) {
+    free[j] = v[j] + h * (inverse_mass[j] * force[j]);
+    if (damping[j] > 0.0) free[j] /= 1.0 + h * damping[j];
+    const double middle = 0.5 * (v[j] + free[j]);
+    parts.force[i][j] = force[j];
+    parts.velocity[i][j] = v[j];
+    parts.free_velocity[i][j] = parts.next_velocity[i][j] = parts.force_velocity[i][j] = free[j];
+    parts.middle_velocity[i][j] = middle;
+    parts.travel[i][j] = h * middle;
+  }
+  const double speed = std::sqrt(std::max(v[0] * v[0] + v[1] * v[1], free[0] * free[0] + free[1] * free[1]));
+  const double spin = std::max(std::abs(v[2]), std::abs(free[2]));
+  parts.reach[i] = h * (speed + spin * parts.radius[i]) + k_slack * parts.radius[i];
+}
+
 // The motion of all bodies as if there were no contacts, and how far each can get.
 void predict(const Scene& scene, double h, const State& state, Parts& parts) {
   for (Index i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    const BodyState& now = state.bodies[i];
-    parts.poses[i] = now.pose;
-    if (body.kind == BodyKind::fixed) continue;
-    if (body.kind == BodyKind::kinematic) {
-      const Pose next = prescribed_pose(body, state.time + h);
-      const Vector2 way = next.position - now.pose.position;
-      parts.travel[i] = {way.x, way.y, next.angle - now.pose.angle};
-      for (Index j = 0; j < 3; ++j) parts.velocity[i][j] = parts.travel[i][j] / h;
-      parts.free_velocity[i] = parts.middle_velocity[i] = parts.next_velocity[i] = parts.velocity[i];
-      const double turn = std::abs(parts.travel[i][2]);
-      parts.reach[i] = length(way) + (turn > 0.0 ? turn * parts.radius[i] : 0.0);
-      continue;
-    }
-    const Vector3& v = now.velocity;
-    Vector3& force = parts.force[i];
-    parts.wrench[i] = body.wrenches.empty() ? Vector3{} : mean_wrench(body, state.time, state.time + h);
-    force = {body.mass * scene.gravity.x + parts.wrench[i][0], body.mass * scene.gravity.y + parts.wrench[i][1],
-             parts.wrench[i][2]};
-    Vector3 free;
-    for (Index j = 0; j < 3; ++j) free[j] = v[j] + h * (parts.inverse_mass[i][j] * force[j]);
-    if (body.linear_damping > 0.0) {
-      free[0] /= 1.0 + h * body.linear_damping;
-      free[1] /= 1.0 + h * body.linear_damping;
-    }
-    if (body.angular_damping > 0.0) free[2] /= 1.0 + h * body.angular_damping;
-    parts.velocity[i] = v;
-    parts.free_velocity[i] = parts.next_velocity[i] = parts.force_velocity[i] = free;
-    for (Index j = 0; j < 3; ++j) {
-      parts.middle_velocity[i][j] = 0.5 * (v[j] + free[j]);
-      parts.travel[i][j] = h * parts.middle_velocity[i][j];
-    }
-    const double radius = parts.radius[i];
-    const double speed = std::sqrt(std::max(v[0] * v[0] + v[1] * v[1], free[0] * free[0] + free[1] * free[1]));
-    const double spin = std::max(std::abs(v[2]), std::abs(free[2]));
-    parts.reach[i] = h * (speed + spin * radius) + k_slack * radius;
+    parts.poses[i] = state.bodies[i].pose;
+    if (body.kind == BodyKind::dynamic) fall(body, scene.gravity, h, state, i, parts);
+    if (body.kind == BodyKind::kinematic) prescribe(body, h, state, i, parts);
   }
 }
 
-// True if no body went further than its contacts were looked for; else they are looked for further away.
-bool is_within_reach(const Scene& scene, Parts& parts) {
+// True if no body went further than its contacts were looked for; else they are looked for further away. Bodies that
+// touch nothing go as predicted.
+bool is_within_reach(Parts& parts) {
   bool is_within = true;
-  for (Index i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].kind != BodyKind::dynamic) continue;
-    const Vector3& d = parts.travel[i];
-    const double way = std::sqrt(d[0] * d[0] + d[1] * d[1]) + std::abs(d[2]) * parts.radius[i];
-    if (!(way > parts.reach[i])) continue;
-    parts.reach[i] = 2.0 * way;
-    is_within = false;
+  for (const int i : parts.island_contact) {
+    const BodyContact& rows = parts.contacts[static_cast<Index>(i)].rows;
+    for (const int body : {rows.body_a, rows.body_b}) {
+      if (body < 0) continue;
+      const auto b = static_cast<Index>(body);
+      const Vector3& d = parts.travel[b];
+      const double way = std::sqrt(d[0] * d[0] + d[1] * d[1]) + std::abs(d[2]) * parts.radius[b];
+      if (!(way > parts.reach[b])) continue;
+      parts.reach[b] = 2.0 * way;
+      is_within = false;
+    }
   }
   return is_within;
 }
@@ -184,7 +192,7 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
     step_islands(h, settings, parts);
     for (int more = 0; more < k_max_looks && add_contacts_on_way(scene, h, parts); ++more)
       step_islands(h, settings, parts);
-    if (is_within_reach(scene, parts) || look == k_max_looks) break;
+    if (is_within_reach(parts) || look == k_max_looks) break;
     for (Index i = 0; i < scene.bodies.size(); ++i) {
       if (scene.bodies[i].kind != BodyKind::dynamic) continue;
       parts.next_velocity[i] = parts.force_velocity[i] = parts.free_velocity[i];
