@@ -12,7 +12,7 @@ namespace tumble {
 
 namespace {
 
-constexpr double k_margin = 4.0;  // [-] of the reach: for about as many steps
+constexpr double k_margin = 6.0;  // [-] of the reach: for about as many steps
 constexpr double k_round = 0.75;  // [-] of the thickness: a circle as small holds a part that need not be placed
 constexpr double k_round_off = 4.0 * std::numeric_limits<double>::epsilon();
 
@@ -51,9 +51,10 @@ const std::vector<Contact>& ContactFinder::find(const std::vector<Pose>& poses, 
   contacts_.clear();
   for (const BoxPair& pair : pairs_) {
     const PlacedPart &a = parts_[pair.first], &b = parts_[pair.second];
+    const double within = reach[a.body] + reach[b.body];
+    if (!overlap(wide_box(a, poses, within), wide_box(b, poses, 0.0))) continue;
     place(a.body, poses[a.body]);
     place(b.body, poses[b.body]);
-    const double within = reach[a.body] + reach[b.body];
     if (!overlap(with_margin(a.box, within), b.box)) continue;
     points_.clear();
     append_sorted_contacts(a.shape.placed(), b.shape.placed(), within, points_);
@@ -82,12 +83,15 @@ void ContactFinder::place(int body, const Pose& pose) {
   }
 }
 
-Box ContactFinder::margin_box(const PlacedPart& part) const {
-  const PlacedBody& body = bodies_[part.body];
-  if (part.circle == 0.0) return with_margin(part.box, body.margin);
-  const Vector2 centre = body.boxed_at.position;
-  return with_margin({centre, centre},
-                     part.circle + body.margin + k_round_off * (std::abs(centre.x) + std::abs(centre.y)));
+// A box about everything within `margin` of a part, which is placed only if its circle is too wide.
+Box ContactFinder::wide_box(const PlacedPart& part, const std::vector<Pose>& poses, double margin) {
+  const Pose& pose = poses[part.body];
+  if (part.circle == 0.0) {
+    place(part.body, pose);
+    return with_margin(part.box, margin);
+  }
+  const Vector2 p = pose.position;
+  return with_margin({p, p}, part.circle + margin + k_round_off * (std::abs(p.x) + std::abs(p.y)));
 }
 
 void ContactFinder::make_boxes(const std::vector<Pose>& poses, const std::vector<double>& reach) {
@@ -97,8 +101,7 @@ void ContactFinder::make_boxes(const std::vector<Pose>& poses, const std::vector
   }
   for (std::size_t i = 0; i < bounded_.size(); ++i) {
     const PlacedPart& part = parts_[bounded_[i]];
-    if (part.circle == 0.0) place(part.body, poses[part.body]);
-    boxes_[i] = margin_box(part);
+    boxes_[i] = wide_box(part, poses, bodies_[part.body].margin);
   }
   for (const int i : ground_) place(parts_[i].body, poses[parts_[i].body]);
 }

@@ -52,7 +52,7 @@ class ContactFinder {
 
   bool do_boxes_hold(const std::vector<Pose>& poses, const std::vector<double>& reach) const;
   void place(int body, const Pose& pose);
-  Box margin_box(const PlacedPart& part) const;
+  Box wide_box(const PlacedPart& part, const std::vector<Pose>& poses, double margin);
   void make_boxes(const std::vector<Pose>& poses, const std::vector<double>& reach);
   void find_pairs();
   void sort_pairs();
