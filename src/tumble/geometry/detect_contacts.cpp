@@ -47,20 +47,37 @@ const std::vector<Contact>& ContactFinder::find(const std::vector<Pose>& poses, 
     make_boxes(poses, reach);
     find_pairs();
     sort_pairs();
+    memories_.assign(pairs_.size(), {});
   }
+  contacts_.swap(last_contacts_);
   contacts_.clear();
-  for (const BoxPair& pair : pairs_) {
-    const PlacedPart &a = parts_[pair.first], &b = parts_[pair.second];
-    const double within = reach[a.body] + reach[b.body];
-    if (!overlap(wide_box(a, poses, within), wide_box(b, poses, 0.0))) continue;
-    place(a.body, poses[a.body]);
-    place(b.body, poses[b.body]);
-    if (!overlap(with_margin(a.box, within), b.box)) continue;
-    points_.clear();
-    append_sorted_contacts(a.shape.placed(), b.shape.placed(), within, points_);
-    for (const ContactPoint& point : points_) contacts_.push_back({point, a.body, b.body, a.part, b.part});
-  }
+  for (std::size_t k = 0; k < pairs_.size(); ++k) find_of_pair(pairs_[k], poses, reach, memories_[k]);
+  last_contacts_.reserve(contacts_.capacity());  // now, so that the next call takes nothing from the heap
   return contacts_;
+}
+
+// Between bodies that have not moved since the last call nothing has changed.
+void ContactFinder::find_of_pair(const BoxPair& pair, const std::vector<Pose>& poses, const std::vector<double>& reach,
+                                 PairMemory& memory) {
+  const PlacedPart &a = parts_[pair.first], &b = parts_[pair.second];
+  const Pose &pose_a = poses[a.body], &pose_b = poses[b.body];
+  const double within = reach[a.body] + reach[b.body];
+  const std::size_t first = contacts_.size();
+  if (memory.within == within && memory.pose_a == pose_a && memory.pose_b == pose_b) {
+    const auto old = last_contacts_.begin() + static_cast<std::ptrdiff_t>(memory.first);
+    contacts_.insert(contacts_.end(), old, old + static_cast<std::ptrdiff_t>(memory.count));
+    memory.first = first;
+    return;
+  }
+  memory = {pose_a, pose_b, within, first, 0};
+  if (!overlap(wide_box(a, poses, within), wide_box(b, poses, 0.0))) return;
+  place(a.body, pose_a);
+  place(b.body, pose_b);
+  if (!overlap(with_margin(a.box, within), b.box)) return;
+  points_.clear();
+  append_sorted_contacts(a.shape.placed(), b.shape.placed(), within, points_);
+  for (const ContactPoint& point : points_) contacts_.push_back({point, a.body, b.body, a.part, b.part});
+  memory.count = points_.size();
 }
 
 // Whether every body is so near to where its boxes were made that they still hold all within its reach.

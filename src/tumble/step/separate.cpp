@@ -29,7 +29,7 @@ double overlap_after(const StepWorkspace::Parts& parts, const StepContact& c, do
 
 }  // namespace
 
-void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
+bool separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
               double lost) {
   const int max_sweeps = settings.solver == ContactSolver::fast ? k_fast_sweeps : k_max_sweeps;
   const auto at = [&](int i) -> StepContact& { return parts.contacts[static_cast<Index>(i)]; };
@@ -51,7 +51,7 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
     for_bodies(at(i).rows, [&](Index b, const Vector3&) { size = std::max(size, parts.radius[b]); });
     return overlap_after(parts, at(i), h) > k_round_off * size;
   });
-  if (!has_overlap) return;
+  if (!has_overlap) return false;
 
   // Projected Gauss-Seidel on the multipliers of gap >= 0.
   for (const int i : contacts) at(i).push = 0.0;
@@ -86,6 +86,7 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
     for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];
     parts.shift[b] = {};
   }
+  return true;
 }
 
 }  // namespace tumble

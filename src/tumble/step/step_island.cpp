@@ -472,8 +472,8 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
     c.sticks = c.mode != ContactMode::open && !island.slips(c, parts.next_velocity);
     island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;
   }
-  separate(parts, contacts, h, settings, -island.created().energy);
-  const Island::Created created = island.created();
+  Island::Created created = island.created();
+  if (separate(parts, contacts, h, settings, -created.energy)) created = island.created();
   if (created.energy > k_energy_round_off * created.size) island.outcome.created = created.energy;
   island.forget_bodies();
   return island.outcome;

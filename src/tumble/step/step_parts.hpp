@@ -139,8 +139,8 @@ IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, do
 
 // Adds to the travel of the bodies of one island what takes them out of what they would overlap after the step, the
 // least in the metric of their masses. Velocities stay. Bodies are lifted against their forces by no more work than
-// `lost` [J], what the step has lost: the sum creates no energy.
-void separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, const StepSettings& settings,
+// `lost` [J], what the step has lost: the sum creates no energy. False if there is no overlap.
+bool separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, const StepSettings& settings,
               double lost);
 
 // Velocity (u_n, u_t) of the contact where its bodies have the given ones.
