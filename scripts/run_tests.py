@@ -11,7 +11,8 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-FOLDERS = ("tests/python", "tests/cli", "tests/install", "tests/determinism")
+# The longest first: a process of pytest takes the next file when it is done with one.
+FOLDERS = ("tests/determinism", "tests/install", "tests/python", "tests/cli")
 
 
 def count(report: Path) -> tuple[int, int, int]:
@@ -39,7 +40,9 @@ def main() -> int:
         "MPLBACKEND": "Agg",
     }
     ctest = ["ctest", "--test-dir", str(build), "--output-on-failure", "-j", "2", "--output-junit", str(reports[0])]
-    pytest = [sys.executable, "-m", "pytest", "-q", f"--junit-xml={reports[1]}", *FOLDERS]
+    # A file stays in one process, so that what its tests share is made once.
+    two_processes = ["-n", "2", "--dist", "loadfile"]
+    pytest = [sys.executable, "-m", "pytest", "-q", *two_processes, f"--junit-xml={reports[1]}", *FOLDERS]
     codes = [subprocess.run(command, cwd=ROOT, env=environment).returncode for command in (ctest, pytest)]
     passed, failed, skipped = (sum(numbers) for numbers in zip(*(count(report) for report in reports)))
     if any(codes) and failed == 0:

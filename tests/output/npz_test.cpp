@@ -18,7 +18,7 @@ std::string refusal(const std::string& bytes) {
   return message_of<std::invalid_argument>([&] { parse_record_npz(bytes, "run.npz"); });
 }
 
-std::filesystem::path data_folder() { return std::filesystem::path(__FILE__).parent_path() / "data"; }
+std::filesystem::path data_folder() { return TUMBLE_SOURCE "/tests/output/data"; }
 
 TEST(Npz, ReadsBackTheSameBits) {
   for (const int columns : {2, 3, 150}) {

@@ -13,7 +13,7 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_accepted_residual = 1e-10;
-constexpr double k_rest_rounding = 2e-16;  // [-] what is left is round-off: nothing to improve
+constexpr double k_rest_rounding = 1e-15;  // [-] what is left is round-off: nothing to improve
 constexpr double k_path_ridge = 1e-7;      // [-]
 constexpr int k_max_path_pieces = 150;
 constexpr int k_first_rounds = 8;   // of Newton's method: where it gets there, it does so in a few
@@ -117,8 +117,7 @@ struct IslandSolver::Parts {
       const double f_t = modes.impulses[2 * i + 1];
       modes.modes[i] = contact_mode(result.z[i], result.z[3 * m + i], f_t != 0.0 ? -f_t : 1.0);
     }
-    if (offer()) return LcpStatus::solved;
-    return result.status == LcpStatus::solved ? LcpStatus::numerical : result.status;
+    return offer() ? LcpStatus::solved : result.status;
   }
 };
 

@@ -12,8 +12,9 @@ namespace tumble {
 
 namespace {
 
-constexpr double k_margin = 4.0;  // [-] of the reach: for about as many steps
-constexpr double k_round = 0.75;  // [-] of the thickness: a circle as small holds a part that need not be placed
+constexpr double k_margin = 6.0;        // [-] of the reach: for about as many steps
+constexpr double k_spare_reach = 1e-6;  // [-] contacts of pairs are looked for so much further away
+constexpr double k_round = 0.75;        // [-] of the thickness: a circle as small holds a part that need not be placed
 constexpr double k_round_off = 4.0 * std::numeric_limits<double>::epsilon();
 
 Box with_margin(const Box& box, double margin) {
@@ -47,19 +48,51 @@ const std::vector<Contact>& ContactFinder::find(const std::vector<Pose>& poses, 
     make_boxes(poses, reach);
     find_pairs();
     sort_pairs();
+    memories_.assign(pairs_.size(), {});
   }
+  contacts_.swap(last_contacts_);
   contacts_.clear();
-  for (const BoxPair& pair : pairs_) {
-    const PlacedPart &a = parts_[pair.first], &b = parts_[pair.second];
-    place(a.body, poses[a.body]);
-    place(b.body, poses[b.body]);
-    const double within = reach[a.body] + reach[b.body];
-    if (!overlap(with_margin(a.box, within), b.box)) continue;
-    points_.clear();
-    append_sorted_contacts(a.shape.placed(), b.shape.placed(), within, points_);
-    for (const ContactPoint& point : points_) contacts_.push_back({point, a.body, b.body, a.part, b.part});
-  }
+  for (std::size_t k = 0; k < pairs_.size(); ++k) find_of_pair(pairs_[k], poses, reach, memories_[k]);
+  last_contacts_.reserve(contacts_.capacity());  // now, so that the next call takes nothing from the heap
   return contacts_;
+}
+
+// Between bodies that have not moved since the last call nothing has changed. Their reach may have, by round-off of
+// their velocities.
+void ContactFinder::find_of_pair(const BoxPair& pair, const std::vector<Pose>& poses, const std::vector<double>& reach,
+                                 PairMemory& memory) {
+  const PlacedPart &a = parts_[pair.first], &b = parts_[pair.second];
+  const double within = reach[a.body] + reach[b.body], wide = within * (1.0 + k_spare_reach);
+  if (remembers(memory, poses[a.body], poses[b.body], within)) {
+    const std::size_t first = contacts_.size();
+    const auto old = last_contacts_.begin() + static_cast<std::ptrdiff_t>(memory.first);
+    contacts_.insert(contacts_.end(), old, old + static_cast<std::ptrdiff_t>(memory.count));
+    memory.first = first;
+    return;
+  }
+  memory = {poses[a.body], poses[b.body], wide, contacts_.size(), 0};
+  if (!overlap(wide_box(a, poses, wide), wide_box(b, poses, 0.0))) return;
+  place(a.body, poses[a.body]);
+  place(b.body, poses[b.body]);
+  if (!overlap(with_margin(a.box, wide), b.box)) return;
+  points_.clear();
+  append_sorted_contacts(a.shape.placed(), b.shape.placed(), wide, points_);
+  for (const ContactPoint& point : points_) {
+    if (point.gap <= within) {
+      contacts_.push_back({point, a.body, b.body, a.part, b.part});
+    } else {
+      memory.wide = -1.0;
+    }
+  }
+  memory.count = contacts_.size() - memory.first;
+}
+
+bool ContactFinder::remembers(const PairMemory& memory, const Pose& pose_a, const Pose& pose_b, double within) const {
+  if (!(within <= memory.wide && memory.wide <= within * (1.0 + 2.0 * k_spare_reach))) return false;
+  if (memory.pose_a != pose_a || memory.pose_b != pose_b) return false;
+  const auto old = last_contacts_.begin() + static_cast<std::ptrdiff_t>(memory.first);
+  return std::all_of(old, old + static_cast<std::ptrdiff_t>(memory.count),
+                     [&](const Contact& contact) { return contact.gap <= within; });
 }
 
 // Whether every body is so near to where its boxes were made that they still hold all within its reach.
@@ -82,12 +115,15 @@ void ContactFinder::place(int body, const Pose& pose) {
   }
 }
 
-Box ContactFinder::margin_box(const PlacedPart& part) const {
-  const PlacedBody& body = bodies_[part.body];
-  if (part.circle == 0.0) return with_margin(part.box, body.margin);
-  const Vector2 centre = body.boxed_at.position;
-  return with_margin({centre, centre},
-                     part.circle + body.margin + k_round_off * (std::abs(centre.x) + std::abs(centre.y)));
+// A box about everything within `margin` of a part, which is placed only if its circle is too wide.
+Box ContactFinder::wide_box(const PlacedPart& part, const std::vector<Pose>& poses, double margin) {
+  const Pose& pose = poses[part.body];
+  if (part.circle == 0.0) {
+    place(part.body, pose);
+    return with_margin(part.box, margin);
+  }
+  const Vector2 p = pose.position;
+  return with_margin({p, p}, part.circle + margin + k_round_off * (std::abs(p.x) + std::abs(p.y)));
 }
 
 void ContactFinder::make_boxes(const std::vector<Pose>& poses, const std::vector<double>& reach) {
@@ -97,8 +133,7 @@ void ContactFinder::make_boxes(const std::vector<Pose>& poses, const std::vector
   }
   for (std::size_t i = 0; i < bounded_.size(); ++i) {
     const PlacedPart& part = parts_[bounded_[i]];
-    if (part.circle == 0.0) place(part.body, poses[part.body]);
-    boxes_[i] = margin_box(part);
+    boxes_[i] = wide_box(part, poses, bodies_[part.body].margin);
   }
   for (const int i : ground_) place(parts_[i].body, poses[parts_[i].body]);
 }

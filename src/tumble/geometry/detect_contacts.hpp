@@ -45,6 +45,13 @@ class ContactFinder {
     double margin = -1.0;  // and by how much they are wider than its parts; < 0: never
   };
 
+  // The contacts of a pair in the last call, at which poses, and within which distance there are no others.
+  struct PairMemory {
+    Pose pose_a, pose_b;
+    double wide = -1.0;  // < 0: not known
+    std::size_t first = 0, count = 0;
+  };
+
   std::size_t index_of(int body, int part) const {
     return bodies_[static_cast<std::size_t>(body)].first_part + static_cast<std::size_t>(part);
   }
@@ -52,7 +59,10 @@ class ContactFinder {
 
   bool do_boxes_hold(const std::vector<Pose>& poses, const std::vector<double>& reach) const;
   void place(int body, const Pose& pose);
-  Box margin_box(const PlacedPart& part) const;
+  void find_of_pair(const BoxPair& pair, const std::vector<Pose>& poses, const std::vector<double>& reach,
+                    PairMemory& memory);
+  bool remembers(const PairMemory& memory, const Pose& pose_a, const Pose& pose_b, double within) const;
+  Box wide_box(const PlacedPart& part, const std::vector<Pose>& poses, double margin);
   void make_boxes(const std::vector<Pose>& poses, const std::vector<double>& reach);
   void find_pairs();
   void sort_pairs();
@@ -65,9 +75,10 @@ class ContactFinder {
   std::vector<Box> boxes_;    // of these, margins included
   BroadPhase broad_phase_;
   std::vector<BoxPair> unsorted_, pairs_;  // of parts
+  std::vector<PairMemory> memories_;       // of the latter
   std::vector<std::size_t> bucket_;        // by body
   std::vector<ContactPoint> points_;
-  std::vector<Contact> contacts_;
+  std::vector<Contact> contacts_, last_contacts_;
 };
 
 }  // namespace tumble

@@ -95,9 +95,10 @@ bool is_within_reach(Parts& parts) {
       if (body < 0) continue;
       const auto b = static_cast<Index>(body);
       const Vector3& d = parts.travel[b];
-      const double way = std::sqrt(d[0] * d[0] + d[1] * d[1]) + std::abs(d[2]) * parts.radius[b];
-      if (!(way > parts.reach[b])) continue;
-      parts.reach[b] = 2.0 * way;
+      const double turn = std::abs(d[2]) * parts.radius[b], left = parts.reach[b] - turn;
+      const double square = d[0] * d[0] + d[1] * d[1];
+      if (left >= 0.0 && square <= left * left) continue;
+      parts.reach[b] = 2.0 * (std::sqrt(square) + turn);
       is_within = false;
     }
   }
