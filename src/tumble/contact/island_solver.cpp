@@ -96,7 +96,7 @@ struct IslandSolver::Parts {
           (start.give_back(modes), !modes.follow_near(ridge, k_max_near_pieces))) {
         start.give_back(modes);
         modes.sweep(k_more_sweeps);
-        if (offer()) return true;
+        if (finish()) return true;
         ridge = std::min(10.0 * ridge, 1.0);
         continue;
       }
@@ -144,7 +144,7 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
     search.modes = modes;
     search.impulses = impulses;
     search.sweep(k_first_sweeps);
-    if (!parts_->offer() && !parts_->approach()) {
+    if (!parts_->finish() && !parts_->approach()) {
       status = LcpStatus::iteration_limit;
       if (system.contacts.size() <= k_max_dense_contacts) status = parts_->search_dense(system);
     }

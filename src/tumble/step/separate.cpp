@@ -17,6 +17,47 @@ double gap_after(const StepWorkspace::Parts& parts, const StepContact& c, double
   return gap;
 }
 
+// What is to be added to the travel of each body of the island: the LCP of frictionless contacts, with ways [m] for
+// velocities and multipliers [kg m] for impulses.
+void find_shifts(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings) {
+  const auto at = [&](int i) -> const StepContact& { return parts.contacts[static_cast<Index>(i)]; };
+  if (contacts.size() == 1) {
+    const StepContact& c = at(contacts[0]);
+    double response = 0.0;
+    for_bodies(c.rows, [&](Index b, const Vector3& n, const Vector3&) {
+      for (Index j = 0; j < 3; ++j) response += n[j] * n[j] * parts.inverse_mass[b][j];
+    });
+    const double push = -gap_after(parts, c, h) / response;
+    for_bodies(c.rows, [&](Index b, const Vector3& n, const Vector3&) {
+      for (Index j = 0; j < 3; ++j) parts.shift[b][j] = parts.inverse_mass[b][j] * n[j] * push;
+    });
+    return;
+  }
+  IslandSolver& solver = parts.separator;
+  solver.system.inverse_mass.clear();
+  solver.system.velocity.assign(parts.island_body.size(), Vector3{});
+  solver.system.contacts.clear();
+  solver.modes.clear();
+  solver.impulses.assign(2 * contacts.size(), 0.0);
+  for (const int body : parts.island_body) {
+    solver.system.inverse_mass.push_back(parts.inverse_mass[static_cast<Index>(body)]);
+  }
+  const auto local = [&](int body) { return body < 0 ? -1 : parts.local_body[static_cast<Index>(body)]; };
+  for (const int i : contacts) {
+    BodyContact& rows = solver.system.contacts.emplace_back(at(i).rows);
+    rows.body_a = local(rows.body_a);
+    rows.body_b = local(rows.body_b);
+    rows.offset = gap_after(parts, at(i), h);
+    rows.tangent_offset = 0.0;
+    rows.friction = 0.0;
+    solver.modes.push_back(rows.offset < 0.0 ? ContactMode::slip_right : ContactMode::open);
+  }
+  solver.solve({settings.solver, settings.num_sweeps});  // what overlap is left is met in the next step
+  for (Index k = 0; k < parts.island_body.size(); ++k) {
+    parts.shift[static_cast<Index>(parts.island_body[k])] = solver.velocity[k];
+  }
+}
+
 }  // namespace
 
 void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
@@ -43,37 +84,16 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
   if (!has_overlap) return;
   list_bodies(parts, contacts);
 
-  // The LCP of frictionless contacts, with ways [m] for velocities and multipliers [kg m] for impulses.
-  IslandSolver& solver = parts.solver;
-  solver.system.inverse_mass.clear();
-  solver.system.velocity.assign(parts.island_body.size(), Vector3{});
-  solver.system.contacts.clear();
-  solver.modes.clear();
-  solver.impulses.assign(2 * contacts.size(), 0.0);
-  for (const int body : parts.island_body) {
-    solver.system.inverse_mass.push_back(parts.inverse_mass[static_cast<Index>(body)]);
-  }
-  const auto local = [&](int body) { return body < 0 ? -1 : parts.local_body[static_cast<Index>(body)]; };
-  for (const int i : contacts) {
-    BodyContact& rows = solver.system.contacts.emplace_back(at(i).rows);
-    rows.body_a = local(rows.body_a);
-    rows.body_b = local(rows.body_b);
-    rows.offset = gap_after(parts, at(i), h);
-    rows.tangent_offset = 0.0;
-    rows.friction = 0.0;
-    solver.modes.push_back(rows.offset < 0.0 ? ContactMode::slip_right : ContactMode::open);
-  }
-  solver.solve({settings.solver, settings.num_sweeps});  // what overlap is left is met in the next step
-
+  find_shifts(parts, contacts, h, settings);
   double work = 0.0;  // against the forces
-  for (Index k = 0; k < parts.island_body.size(); ++k) {
-    work -= dot(parts.force[static_cast<Index>(parts.island_body[k])], solver.velocity[k]);
+  for (const int body : parts.island_body) {
+    work -= dot(parts.force[static_cast<Index>(body)], parts.shift[static_cast<Index>(body)]);
   }
   const double paid = std::max(lost, 0.0);
   const double share = work > paid ? paid / work : 1.0;
-  for (Index k = 0; k < parts.island_body.size(); ++k) {
-    Vector3& travel = parts.travel[static_cast<Index>(parts.island_body[k])];
-    for (Index j = 0; j < 3; ++j) travel[j] += share * solver.velocity[k][j];
+  for (const int body : parts.island_body) {
+    const auto b = static_cast<Index>(body);
+    for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];
   }
   forget_bodies(parts);
 }

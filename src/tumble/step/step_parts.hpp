@@ -96,6 +96,7 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> next_velocity;
   std::vector<Vector3> force_velocity;  // after the forces and the first impacts: forces work along its mean with v
   std::vector<Vector3> travel;          // x, y, angle
+  std::vector<Vector3> shift;           // what `separate` adds to it
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
@@ -109,7 +110,8 @@ struct StepWorkspace::Parts {
   std::vector<int> island_contact;     // indices into contacts
   std::vector<IslandOutcome> outcome;  // of an island, at the index of its first contact
   std::vector<IslandOutcome> last_outcome;
-  IslandSolver solver;
+  IslandSolver solver;                       // of impulses
+  IslandSolver separator;                    // of overlaps
   std::vector<int> local_body, island_body;  // scene -> island, -1 if not of it, and back
   std::vector<Vector3> way_velocity;         // of the LCP for the way
 };

@@ -160,7 +160,7 @@ StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
   poses.resize(n);
   reach.assign(n, 0.0);
   for (std::vector<Vector3>* values : {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity,
-                                       &travel, &way_velocity, &force_velocity}) {
+                                       &travel, &shift, &way_velocity, &force_velocity}) {
     values->assign(n, Vector3{});
   }
   parent.resize(n);
