@@ -12,8 +12,9 @@ namespace tumble {
 
 namespace {
 
-constexpr double k_margin = 6.0;  // [-] of the reach: for about as many steps
-constexpr double k_round = 0.75;  // [-] of the thickness: a circle as small holds a part that need not be placed
+constexpr double k_margin = 6.0;        // [-] of the reach: for about as many steps
+constexpr double k_spare_reach = 1e-6;  // [-] contacts of pairs are looked for so much further away
+constexpr double k_round = 0.75;        // [-] of the thickness: a circle as small holds a part that need not be placed
 constexpr double k_round_off = 4.0 * std::numeric_limits<double>::epsilon();
 
 Box with_margin(const Box& box, double margin) {
@@ -56,28 +57,42 @@ const std::vector<Contact>& ContactFinder::find(const std::vector<Pose>& poses, 
   return contacts_;
 }
 
-// Between bodies that have not moved since the last call nothing has changed.
+// Between bodies that have not moved since the last call nothing has changed. Their reach may have, by round-off of
+// their velocities.
 void ContactFinder::find_of_pair(const BoxPair& pair, const std::vector<Pose>& poses, const std::vector<double>& reach,
                                  PairMemory& memory) {
   const PlacedPart &a = parts_[pair.first], &b = parts_[pair.second];
-  const Pose &pose_a = poses[a.body], &pose_b = poses[b.body];
-  const double within = reach[a.body] + reach[b.body];
-  const std::size_t first = contacts_.size();
-  if (memory.within == within && memory.pose_a == pose_a && memory.pose_b == pose_b) {
+  const double within = reach[a.body] + reach[b.body], wide = within * (1.0 + k_spare_reach);
+  if (remembers(memory, poses[a.body], poses[b.body], within)) {
+    const std::size_t first = contacts_.size();
     const auto old = last_contacts_.begin() + static_cast<std::ptrdiff_t>(memory.first);
     contacts_.insert(contacts_.end(), old, old + static_cast<std::ptrdiff_t>(memory.count));
     memory.first = first;
     return;
   }
-  memory = {pose_a, pose_b, within, first, 0};
-  if (!overlap(wide_box(a, poses, within), wide_box(b, poses, 0.0))) return;
-  place(a.body, pose_a);
-  place(b.body, pose_b);
-  if (!overlap(with_margin(a.box, within), b.box)) return;
+  memory = {poses[a.body], poses[b.body], wide, contacts_.size(), 0};
+  if (!overlap(wide_box(a, poses, wide), wide_box(b, poses, 0.0))) return;
+  place(a.body, poses[a.body]);
+  place(b.body, poses[b.body]);
+  if (!overlap(with_margin(a.box, wide), b.box)) return;
   points_.clear();
-  append_sorted_contacts(a.shape.placed(), b.shape.placed(), within, points_);
-  for (const ContactPoint& point : points_) contacts_.push_back({point, a.body, b.body, a.part, b.part});
-  memory.count = points_.size();
+  append_sorted_contacts(a.shape.placed(), b.shape.placed(), wide, points_);
+  for (const ContactPoint& point : points_) {
+    if (point.gap <= within) {
+      contacts_.push_back({point, a.body, b.body, a.part, b.part});
+    } else {
+      memory.wide = -1.0;
+    }
+  }
+  memory.count = contacts_.size() - memory.first;
+}
+
+bool ContactFinder::remembers(const PairMemory& memory, const Pose& pose_a, const Pose& pose_b, double within) const {
+  if (!(within <= memory.wide && memory.wide <= within * (1.0 + 2.0 * k_spare_reach))) return false;
+  if (memory.pose_a != pose_a || memory.pose_b != pose_b) return false;
+  const auto old = last_contacts_.begin() + static_cast<std::ptrdiff_t>(memory.first);
+  return std::all_of(old, old + static_cast<std::ptrdiff_t>(memory.count),
+                     [&](const Contact& contact) { return contact.gap <= within; });
 }
 
 // Whether every body is so near to where its boxes were made that they still hold all within its reach.

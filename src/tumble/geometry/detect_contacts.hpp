@@ -45,10 +45,10 @@ class ContactFinder {
     double margin = -1.0;  // and by how much they are wider than its parts; < 0: never
   };
 
-  // What was found of a pair, for which poses and reach.
+  // The contacts of a pair in the last call, at which poses, and within which distance there are no others.
   struct PairMemory {
     Pose pose_a, pose_b;
-    double within = -1.0;  // < 0: not looked at yet
+    double wide = -1.0;  // < 0: not known
     std::size_t first = 0, count = 0;
   };
 
@@ -61,6 +61,7 @@ class ContactFinder {
   void place(int body, const Pose& pose);
   void find_of_pair(const BoxPair& pair, const std::vector<Pose>& poses, const std::vector<double>& reach,
                     PairMemory& memory);
+  bool remembers(const PairMemory& memory, const Pose& pose_a, const Pose& pose_b, double within) const;
   Box wide_box(const PlacedPart& part, const std::vector<Pose>& poses, double margin);
   void make_boxes(const std::vector<Pose>& poses, const std::vector<double>& reach);
   void find_pairs();

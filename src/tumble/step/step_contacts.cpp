@@ -84,7 +84,7 @@ void share_friction_line(StepContact& first, StepContact& second) {
   move(other.places.on_b, nearer.places.on_b);
 }
 
-// [m] Gaps below are closed.
+// [m] Gaps of the two bodies below are closed.
 double position_round_off(const Parts& parts, const Contact& contact) {
   constexpr double round_off = 1e-13;  // [-] some hundred times that of one number: positions are sums over many steps
   const auto size = [&](int body) {
@@ -112,10 +112,12 @@ bool is_fast(const Parts& parts, std::span<const Contact> pair) {
   return std::all_of(pair.begin(), pair.end(), [&](const Contact& c) { return c.gap > k_touching * size.radius; });
 }
 
-// Law, places and rows of the contact, of bodies whose frames are at these positions.
-void set_geometry(const Scene& scene, const Parts& parts, StepContact& c, Vector2 centre_a, Vector2 centre_b) {
+// Law, places and rows of the contact, of bodies whose frames are at these positions; a gap within the round-off [m] is
+// none.
+void set_geometry(const Scene& scene, const Parts& parts, StepContact& c, double round_off, Vector2 centre_a,
+                  Vector2 centre_b) {
   c.law = &law_of(scene, parts, c.contact);
-  c.gap = c.contact.gap > position_round_off(parts, c.contact) ? c.contact.gap : 0.0;
+  c.gap = c.contact.gap > round_off ? c.contact.gap : 0.0;
   c.tangent = turned_right(c.contact.normal);
   c.places = contact_places(c.contact, c.gap > 0.0);
   c.rows = contact_rows(c.contact, c.places, centre_a, centre_b);
@@ -180,13 +182,13 @@ Vector2 relative_velocity(const Parts& parts, const Contact& contact, const std:
 
 // The contact in place of those of two polygons that would close in the step, where by their own motion, forces apart,
 // they pass each other.
-std::optional<Contact> find_passing(double h, const Parts& parts, std::span<const Contact> pair) {
+std::optional<Contact> find_passing(double h, const Parts& parts, std::span<const Contact> pair, double round_off) {
   constexpr double early = 1.25;        // [-] of a step: forces may speed them up
   constexpr double step_height = 1e-3;  // [-] of the way, and of the size: lower steps are none
   constexpr double tilt = 0.01;         // [-] of the way: they are on it along the side
   constexpr double same_side = 0.99;    // cosine
   const Contact& nearest = nearest_of(pair);
-  if (!(nearest.gap > position_round_off(parts, nearest))) return std::nullopt;
+  if (!(nearest.gap > round_off)) return std::nullopt;
   const Vector2 velocity = relative_velocity(parts, nearest, parts.velocity), way = early * h * velocity;
   if (!(nearest.gap + dot(nearest.normal, way) < 0.0)) return std::nullopt;
   const double tolerance = step_height * std::min(length(way), size_of_pair(parts, nearest).radius);
@@ -231,7 +233,7 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair&
     StepContact& c = contacts.emplace_back();
     c.contact = {point, pair.body_a, pair.body_b, pair.part_a, pair.part_b};
     c.is_ahead = true;
-    set_geometry(scene, parts, c, position_of(a), position_of(b));
+    set_geometry(scene, parts, c, position_round_off(parts, pair), position_of(a), position_of(b));
     if (contacts.size() > first + 1) share_friction_line(contacts.end()[-2], c);
   }
   for (Index i = first; i < contacts.size(); ++i) {
@@ -294,7 +296,8 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
   for (Index begin = 0, end = 0; begin < found.size(); begin = end) {
     while (end < found.size() && is_of_pair(found[end], found[begin])) ++end;
     const std::span<const Contact> pair = std::span(found).subspan(begin, end - begin);
-    const auto passing = find_passing(h, parts, pair);
+    const double round_off = position_round_off(parts, pair.front());
+    const auto passing = find_passing(h, parts, pair, round_off);
     if (!passing && is_fast(parts, pair)) {
       parts.fast_pairs.push_back({nearest_of(pair)});
       append_contacts_ahead(scene, h, parts, parts.fast_pairs.back(), parts.middle_velocity, parts.contacts);
@@ -303,7 +306,7 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     for (const Contact& contact : passing ? std::span(&*passing, 1) : pair) {
       StepContact& c = parts.contacts.emplace_back();
       c.contact = contact;
-      set_geometry(scene, parts, c, parts.poses[static_cast<Index>(contact.body_a)].position,
+      set_geometry(scene, parts, c, round_off, parts.poses[static_cast<Index>(contact.body_a)].position,
                    parts.poses[static_cast<Index>(contact.body_b)].position);
       if (!passing && &contact != &pair.front()) share_friction_line(parts.contacts.end()[-2], c);
     }
