@@ -83,9 +83,7 @@ double plank_on_rollers(double step_size) {
 // A disc r rolls off a fixed disc R: v^2 = 4/3 g (R + r) (cos a_0 - cos a).
 double down_a_disc(double step_size) {
   const double first = radians(10.0), distance = 1.2;
-  const Scene scene = scene_of(
-      law(2.0),
-      {fixed(disc(1.0)), dynamic(disc(0.2), 1.0, {{distance * std::sin(first), distance * std::cos(first)}, 0.0})});
+  const Scene scene = disc_on_a_disc(2.0, first);
   Simulation simulation = start(scene, step_size, 3.0);
   const auto angle = [](const State& state) {
     return std::atan2(state.bodies[1].pose.position.x, state.bodies[1].pose.position.y);

@@ -72,6 +72,12 @@ inline Scene scene_of(ContactLaw contact_law, std::vector<Body> bodies) {
   return scene;
 }
 
+// A disc of radius 0.2 m on a fixed one of 1 m, at `angle` from its top.
+inline Scene disc_on_a_disc(double friction, double angle) {
+  const Pose pose = {{1.2 * std::sin(angle), 1.2 * std::cos(angle)}, 0.0};
+  return scene_of(law(friction), {fixed(disc(1.0)), dynamic(disc(0.2), 1.0, pose)});
+}
+
 inline Scene without_gravity(Scene scene) {
   scene.gravity = {};
   return scene;

@@ -201,10 +201,8 @@ double ladder(double step_size) {
 
 // A smooth disc slides off a fixed one: it leaves at cos(a) = 2/3 cos(a_0).
 double off_a_disc(double step_size) {
-  const double first = radians(10.0), distance = 1.2;
-  const Scene scene = scene_of(
-      law(0.0),
-      {fixed(disc(1.0)), dynamic(disc(0.2), 1.0, {{distance * std::sin(first), distance * std::cos(first)}, 0.0})});
+  const double first = radians(10.0);
+  const Scene scene = disc_on_a_disc(0.0, first);
   Simulation simulation = start(scene, step_size, 3.0);
   double cosine = 0.0;  // at the last push: it may be pushed in every other step only
   run_until(simulation, [&](const State& state, const StepReport& report) {
@@ -217,10 +215,8 @@ double off_a_disc(double step_size) {
 
 // On the way it presses the fixed disc with m g (3 cos(a) - 2 cos(a_0)).
 double force_on_a_disc(double step_size) {
-  const double first = radians(10.0), distance = 1.2;
-  const Scene scene = scene_of(
-      law(0.0),
-      {fixed(disc(1.0)), dynamic(disc(0.2), 1.0, {{distance * std::sin(first), distance * std::cos(first)}, 0.0})});
+  const double first = radians(10.0);
+  const Scene scene = disc_on_a_disc(0.0, first);
   Simulation simulation = start(scene, step_size, 3.0);
   const auto cosine = [](const State& state) {
     const Vector2 place = state.bodies[1].pose.position;

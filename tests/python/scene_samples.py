@@ -2,8 +2,10 @@
 
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 import tumble
 from tumble import Scene
 
@@ -23,6 +25,13 @@ def box_on_floor(**law: float) -> Scene:
     scene.add_fixed(tumble.half_plane(), name="floor", material="wood")
     scene.add_body(tumble.square(0.25), mass=2, name="box", position=(0, 0.125), material="wood")
     return scene
+
+
+def refuse_in_one_line(call: Callable[[], object], error: type[Exception], message: str) -> None:
+    with pytest.raises(error) as caught:
+        call()
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 def run_python(code: str, **more: object) -> subprocess.CompletedProcess[str]:

@@ -33,14 +33,6 @@ struct NamedFormat {
 };
 using Formats = std::span<const NamedFormat>;
 
-constexpr std::array<NamedFormat, 7> k_record_formats = {{{"csv", Format::csv},
-                                                          {"npz", Format::npz},
-                                                          {"h5", Format::h5},
-                                                          {"gif", Format::gif},
-                                                          {"mp4", Format::mp4},
-                                                          {"png", Format::png},
-                                                          {"svg", Format::svg}}};
-
 constexpr std::array<NamedFormat, 8> k_trajectory_formats = {{{"contacts.csv", Format::contacts_csv},  // before csv
                                                               {"csv", Format::csv},
                                                               {"npz", Format::npz},
@@ -49,6 +41,7 @@ constexpr std::array<NamedFormat, 8> k_trajectory_formats = {{{"contacts.csv", F
                                                               {"mp4", Format::mp4},
                                                               {"png", Format::png},
                                                               {"svg", Format::svg}}};
+constexpr Formats k_record_formats = Formats(k_trajectory_formats).subspan(1);  // all but the one of contacts
 
 constexpr std::size_t k_max_bytes_read = std::size_t{4} << 30;  // 4 GiB
 
