@@ -31,6 +31,8 @@ double gap_rate(const ContactPoint& contact, const Motion& a, const Motion& b) {
 
 double gap_curvature(const ContactPoint& contact, const Motion& a, const Motion& b) {
   const Vector2 n = contact.normal;
+  const bool is_flat = std::isinf(contact.radius_a) || std::isinf(contact.radius_b);
+  if (is_flat && a.velocity[2] == 0.0 && b.velocity[2] == 0.0) return 0.0;  // nothing turns
   if (std::isinf(contact.radius_a)) {
     const double radius = std::isinf(contact.radius_b) ? 0.0 : contact.radius_b;
     return curvature_over_side(a, contact.point_a, n, b, contact.point_b + radius * n, contact.gap + radius);

@@ -23,8 +23,40 @@ void for_bodies(const BodyContact& rows, const F& f) {
 
 double overlap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
   double gap = c.gap_at_start + c.way_bend + h * c.rows.offset;
-  for_bodies(c.rows, [&](Index b, const Vector3& row) { gap += dot(row, parts.travel[b]) + dot(row, parts.shift[b]); });
+  for_bodies(c.rows, [&](Index b, const Vector3& row) { gap += dot(row, parts.travel[b]); });
   return -gap;
+}
+
+// What does not change in the sweeps.
+SeparationRow row_of(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
+  SeparationRow row{c.gap_at_start + c.way_bend + h * c.rows.offset, 0.0, 0.0, 0.0, 0, {}};
+  for_bodies(c.rows, [&](Index b, const Vector3& n) {
+    SeparationRow::Side& side = row.sides[row.num_sides++];
+    side = {b, n, {}, dot(n, parts.travel[b])};
+    for (Index j = 0; j < 3; ++j) {
+      side.response[j] = parts.inverse_mass[b][j] * n[j];
+      row.response += n[j] * n[j] * parts.inverse_mass[b][j];
+    }
+    row.size = std::max(row.size, parts.radius[b]);
+  });
+  return row;
+}
+
+// One step of projected Gauss-Seidel on the multiplier of gap >= 0. True if it moved something.
+bool sweep(SeparationRow& row, std::vector<Vector3>& shift) {
+  double gap = row.gap;
+  for (Index k = 0; k < row.num_sides; ++k) {
+    const SeparationRow::Side& side = row.sides[k];
+    gap += side.travel + dot(side.normal, shift[side.body]);
+  }
+  const double push = std::max(0.0, row.push - gap / row.response), more = push - row.push;
+  if (more == 0.0) return false;
+  for (Index k = 0; k < row.num_sides; ++k) {
+    const SeparationRow::Side& side = row.sides[k];
+    for (Index j = 0; j < 3; ++j) shift[side.body][j] += side.response[j] * more;
+  }
+  row.push = push;
+  return std::abs(more) * row.response > k_unmoved * row.size;
 }
 
 }  // namespace
@@ -53,24 +85,11 @@ bool separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
   });
   if (!has_overlap) return false;
 
-  // Projected Gauss-Seidel on the multipliers of gap >= 0.
-  for (const int i : contacts) at(i).push = 0.0;
-  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+  parts.separation.clear();
+  for (const int i : contacts) parts.separation.push_back(row_of(parts, at(i), h));
+  for (int count = 0; count < max_sweeps; ++count) {
     bool has_moved = false;
-    for (const int i : contacts) {
-      StepContact& c = at(i);
-      double response = 0.0, size = 0.0;
-      for_bodies(c.rows, [&](Index b, const Vector3& n) {
-        for (Index j = 0; j < 3; ++j) response += n[j] * n[j] * parts.inverse_mass[b][j];
-        size = std::max(size, parts.radius[b]);
-      });
-      const double push = std::max(0.0, c.push + overlap_after(parts, c, h) / response);
-      has_moved = has_moved || std::abs(push - c.push) * response > k_unmoved * size;
-      for_bodies(c.rows, [&](Index b, const Vector3& n) {
-        for (Index j = 0; j < 3; ++j) parts.shift[b][j] += parts.inverse_mass[b][j] * n[j] * (push - c.push);
-      });
-      c.push = push;
-    }
+    for (SeparationRow& row : parts.separation) has_moved = sweep(row, parts.shift) || has_moved;
     if (!has_moved) break;
   }
 

@@ -54,7 +54,6 @@ struct StepContact {
   bool sticks = false;       // closed, without slip
   double restitution = 0.0;  // that was at work
   double way_bend = 0.0;     // [m] of the way found
-  double push = 0.0;         // [kg m] of `separate`
 };
 
 struct IslandOutcome {
@@ -70,6 +69,21 @@ struct FastPair {
   Contact nearest;  // at the start of the step
   bool misses = false;
   std::array<Vector3, 2> missing_velocity{};  // of a and b, with which they are known not to meet
+};
+
+// A contact in `separate`.
+struct SeparationRow {
+  struct Side {
+    std::size_t body = 0;
+    Vector3 normal{}, response{};  // row of the normal, and that by the inverse mass
+    double travel = 0.0;           // [m] of the body along the normal
+  };
+  double gap = 0.0;       // [m] after the step, were the bodies not to travel
+  double response = 0.0;  // [1/kg] of the gap to the push
+  double size = 0.0;      // [m] of the bodies
+  double push = 0.0;      // [kg m]
+  std::size_t num_sides = 0;
+  std::array<Side, 2> sides;
 };
 
 struct StepWorkspace::Parts {
@@ -109,7 +123,8 @@ struct StepWorkspace::Parts {
   std::vector<IslandOutcome> outcome;  // of an island, at the index of its first contact
   IslandSolver solver;
   std::vector<int> local_body, island_body;
-  std::vector<Vector3> way_velocity;  // of the LCP for the way
+  std::vector<SeparationRow> separation;  // of one island
+  std::vector<Vector3> way_velocity;      // of the LCP for the way
 };
 
 // The contacts in reach, with what is known of them before anything is solved, in the order of their ids.
