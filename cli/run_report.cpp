@@ -80,6 +80,13 @@ std::string energy_lines(const Trajectory& trajectory) {
   return text;
 }
 
+std::string inexact_line(const Trajectory& trajectory) {
+  if (trajectory.num_inexact_steps == 0) return "";
+  return fmt::format("INEXACT  {} step{}, the first at {:.6g} s: contact laws off by up to {:.1e} of the speeds\n",
+                     trajectory.num_inexact_steps, trajectory.num_inexact_steps == 1 ? "" : "s",
+                     trajectory.first_inexact, trajectory.residual);
+}
+
 std::string end_line(const Trajectory& trajectory, const RunNotes& notes, const std::vector<std::string>& labels) {
   const std::span<const BodyState> states = last_states(trajectory);
   const int fastest = find_fastest(trajectory.scene, states);
@@ -130,7 +137,7 @@ std::string run_text(const Trajectory& trajectory, const RunNotes& notes, const 
                            : fmt::format("overlap  at most {:.3g} m, {} and {} at {:.6g} s\n", -notes.deepest_gap,
                                          labels[static_cast<std::size_t>(notes.body_a)],
                                          labels[static_cast<std::size_t>(notes.body_b)], notes.time);
-  return text + end_line(trajectory, notes, labels) + files_text(files);
+  return text + inexact_line(trajectory) + end_line(trajectory, notes, labels) + files_text(files);
 }
 
 std::string run_json(const Trajectory& trajectory, const RunNotes& notes, const std::vector<std::string>& files) {
@@ -162,6 +169,8 @@ std::string run_json(const Trajectory& trajectory, const RunNotes& notes, const 
       {"interrupted", notes.is_interrupted},
       {"status", to_string(trajectory.status)},
       {"residual", trajectory.residual},
+      {"inexact_steps", trajectory.num_inexact_steps},
+      {"first_inexact", trajectory.num_inexact_steps > 0 ? Json(trajectory.first_inexact) : Json(nullptr)},
       {"energy",
        {{"start", {{"kinetic", start.kinetic}, {"potential", start.potential}}},
         {"end", {{"kinetic", sum.kinetic}, {"potential", sum.potential}}},

@@ -154,6 +154,8 @@ void bind_trajectory_class(py::module_& module) {
       .def_readonly("num_steps", &Trajectory::num_steps)
       .def_property_readonly("status", [](const Trajectory& t) { return py::str(to_string(t.status)); })
       .def_readonly("residual", &Trajectory::residual)
+      .def_readonly("num_inexact_steps", &Trajectory::num_inexact_steps)
+      .def_readonly("first_inexact", &Trajectory::first_inexact)
       .def_readonly("is_complete", &Trajectory::is_complete)
       .def_readonly("num_creating_steps", &Trajectory::num_creating_steps)
       .def_readonly("created_energy", &Trajectory::created_energy)

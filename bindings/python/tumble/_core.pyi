@@ -156,6 +156,8 @@ class Trajectory:
     num_steps: int
     status: str
     residual: float
+    num_inexact_steps: int
+    first_inexact: float
     is_complete: bool
     num_creating_steps: int
     created_energy: float

@@ -113,6 +113,11 @@ def _remarks(trajectory: Trajectory) -> list[str]:
             f"the run ended at {trajectory.time[-1]:g} s: step {trajectory.num_steps} is {trajectory.status}, "
             f"residual {trajectory.residual:.1e}"
         )
+    if trajectory.num_inexact_steps > 0:
+        texts.append(
+            f"{trajectory.num_inexact_steps} steps were not solved, the first at {trajectory.first_inexact:g} s: "
+            f"contact laws are off by up to {trajectory.residual:.1e} of the speeds"
+        )
     if trajectory.num_creating_steps > 0:
         texts.append(
             f"{trajectory.num_creating_steps} steps created {trajectory.created_energy:.3g} J in all, the first at "

@@ -106,13 +106,17 @@ class Trajectory:
     contacts : structured array
         A row for each contact at work in each step, in the order of time; see below.
     status : str
-        Of the last step, as in `tumble.lcp.Result`. If it is not "solved" the run ended there.
+        "solved"; or that of the last step, as in `tumble.lcp.Result`, where the run ended.
     is_complete : bool
-        The run reached its end, all steps solved.
+        The run reached its end.
     num_steps : int
         Steps taken.
     residual : float
         The largest of all steps [-].
+    num_inexact_steps : int
+        Steps that were not solved, but to a residual of at most 1e-3: the run went on.
+    first_inexact : float or None
+        When first [s].
     created_energy : float
         [J] from nothing, in all; Newton's restitution with friction can do that.
     num_creating_steps : int
@@ -144,6 +148,8 @@ class Trajectory:
         self.status = core.status
         self.is_complete = core.is_complete
         self.residual = core.residual
+        self.num_inexact_steps = core.num_inexact_steps
+        self.first_inexact = core.first_inexact if core.num_inexact_steps > 0 else None
         self.created_energy = core.created_energy
         self.num_creating_steps = core.num_creating_steps
         self.first_creation = core.first_creation if core.num_creating_steps > 0 else None

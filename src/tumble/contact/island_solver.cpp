@@ -81,8 +81,12 @@ struct IslandSolver::Parts {
   }
 
   bool start_from(const std::vector<double>& impulses) {
+    start.keep(modes);
     const bool is_cold = std::all_of(impulses.begin(), impulses.end(), [](double f) { return f == 0.0; });
-    return is_cold ? run(k_first_rounds) : follow();
+    if (run(is_cold ? k_first_rounds : k_last_rounds)) return true;
+    if (is_cold) return false;
+    start.give_back(modes);
+    return follow();
   }
 
   // The method of proximal points [Rockafellar 1976]: contacts that give way when their impulses change have modes that

@@ -47,7 +47,7 @@ void BodyModes::load(const ContactSystem& system) {
   u_.resize(num_contacts);
   size_.resize(num_contacts);
   speed_ = 0.0;
-  pairs_.clear();
+  has_pairs_ = false;
   for (Index i = 0; i < num_contacts; ++i) {
     const BodyContact& c = system.contacts[i];
     Block& block = response_[i];
@@ -59,13 +59,21 @@ void BodyModes::load(const ContactSystem& system) {
     });
     const auto [u_n, u_t] = velocity_at(c, system.velocity);
     speed_ = std::max({speed_, std::abs(u_n), std::abs(u_t)});
+  }
+}
+
+// The pattern of the equations.
+void BodyModes::find_pairs() {
+  has_pairs_ = true;
+  pairs_.clear();
+  for (const BodyContact& c : system_->contacts) {
     if (c.body_a >= 0 && c.body_b >= 0) pairs_.push_back({std::min(c.body_a, c.body_b), std::max(c.body_a, c.body_b)});
   }
   std::sort(pairs_.begin(), pairs_.end());
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-  pair_of_.assign(num_contacts, -1);
-  for (Index i = 0; i < num_contacts; ++i) {
-    const BodyContact& c = system.contacts[i];
+  pair_of_.assign(system_->contacts.size(), -1);
+  for (Index i = 0; i < pair_of_.size(); ++i) {
+    const BodyContact& c = system_->contacts[i];
     if (c.body_a < 0 || c.body_b < 0) continue;
     const std::array<int, 2> pair = {std::min(c.body_a, c.body_b), std::max(c.body_a, c.body_b)};
     pair_of_[i] = static_cast<int>(std::lower_bound(pairs_.begin(), pairs_.end(), pair) - pairs_.begin());
@@ -144,12 +152,13 @@ double BodyModes::sweep(int num_sweeps) {
       double& f_n = impulses[2 * i];
       double& f_t = impulses[2 * i + 1];
       const auto [u_n, u_t] = velocity_at(c, v_);
-      const OneContactSolution solution = solve_one_contact(
+      const OneContactSolution solution = propose_one_contact(
           {A.nn, A.nt, A.tt, u_n - A.nn * f_n - A.nt * f_t, u_t - A.nt * f_n - A.tt * f_t, c.friction});
       const double change_n = solution.f_n - f_n, change_t = solution.f_t - f_t;
       f_n = solution.f_n;
       f_t = solution.f_t;
       modes[i] = solution.mode;
+      if (change_n == 0.0 && change_t == 0.0) continue;
       change = std::max({change, A.nn * std::abs(change_n), A.tt * std::abs(change_t)});
       for_bodies(c, [&](Index b, const Vector3& normal, const Vector3& tangent) {
         add_impulse(v_[b], system_->inverse_mass[b], normal, tangent, change_n, change_t);
@@ -173,6 +182,7 @@ void BodyModes::impose_modes() {
 }
 
 void BodyModes::fill_equations() {
+  if (!has_pairs_) find_pairs();
   equations_.set_pattern(static_cast<int>(mass_.size()), pairs_);
   equations_.clear();
   for (Index b = 0; b < mass_.size(); ++b) {

@@ -61,7 +61,7 @@ class BodyModes {
 
  private:
   struct Block {
-    double nn, nt, tt;
+    double nn = 0.0, nt = 0.0, tt = 0.0;
   };
   struct Objection {
     ContactMode mode;
@@ -76,6 +76,7 @@ class BodyModes {
     std::vector<Pair> u;
   };
 
+  void find_pairs();
   void fill_equations();
   double correct();
   void respond(const std::vector<Pair>& offsets, Response& response);
@@ -100,6 +101,7 @@ class BodyModes {
   std::vector<Block> response_;            // A of each contact
   std::vector<Vector3> v_, terms_, step_;  // terms_: the sizes of what v_ is a sum of
   std::vector<Pair> u_, size_;
+  bool has_pairs_ = false;  // of the present system
   BlockLu::Pairs pairs_;
   std::vector<int> pair_of_;  // contact -> pair of bodies, or -1
   BlockLu equations_;

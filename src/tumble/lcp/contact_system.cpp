@@ -32,16 +32,6 @@ struct Row {
 Row normal_row(const BodyContact& c) { return {{c.body_a, c.body_b}, {&c.normal_a, &c.normal_b}}; }
 Row tangent_row(const BodyContact& c) { return {{c.body_a, c.body_b}, {&c.tangent_a, &c.tangent_b}}; }
 
-double velocity_along(const Row& row, const std::vector<Vector3>& velocity) {
-  double sum = 0.0;
-  for (Index k = 0; k < 2; ++k) {
-    if (row.body[k] < 0) continue;
-    const Vector3& v = velocity[static_cast<Index>(row.body[k])];
-    for (Index i = 0; i < 3; ++i) sum += (*row.part[k])[i] * v[i];
-  }
-  return sum;
-}
-
 // J_1 M^-1 J_2^T; the same bits for (1, 2) and (2, 1).
 double response(const ContactSystem& system, const Row& row_1, const Row& row_2) {
   double sum = 0.0;
@@ -138,11 +128,6 @@ LcpProblem as_lcp(const ContactSystem& system) {
     problem.row_sizes[3 * num_contacts + i] = nn > 0.0 ? speed / nn : 0.0;
   }
   return problem;
-}
-
-std::array<double, 2> velocity_at(const BodyContact& contact, const std::vector<Vector3>& velocity) {
-  return {velocity_along(normal_row(contact), velocity) + contact.offset,
-          velocity_along(tangent_row(contact), velocity) + contact.tangent_offset};
 }
 
 ContactMode contact_mode(double normal_impulse, double slip_speed, double u_t) {

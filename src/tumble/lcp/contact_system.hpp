@@ -56,7 +56,14 @@ LcpProblem as_lcp(const ContactSystem& system);
 
 // (u_n, u_t) [m/s] of a contact, offset included, where the bodies have the given velocities (v_x, v_y, omega), one for
 // each body of the system.
-std::array<double, 2> velocity_at(const BodyContact& contact, const std::vector<Vector3>& velocity);
+inline std::array<double, 2> velocity_at(const BodyContact& contact, const std::vector<Vector3>& velocity) {
+  std::array<double, 2> u = {contact.offset, contact.tangent_offset};
+  for_bodies(contact, [&](std::size_t b, const Vector3& normal, const Vector3& tangent) {
+    u[0] += dot(normal, velocity[b]);
+    u[1] += dot(tangent, velocity[b]);
+  });
+  return u;
+}
 
 // What a contact does, from its entries of z and the tangential velocity after the impulses.
 ContactMode contact_mode(double normal_impulse, double slip_speed, double u_t);

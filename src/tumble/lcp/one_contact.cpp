@@ -118,34 +118,15 @@ void judge(const OneContact& c, bool is_left, OneContactSolution& x) {
 
 // See docs/theory/one_contact.md.
 OneContactSolution solve_one_contact(const OneContact& c) {
-  OneContactSolution solution;
-  if (c.b_n >= 0.0) {  // u = b: every row holds to the last bit
-    solution.slip_speed = std::abs(c.b_t);
+  OneContactSolution solution = propose_one_contact(c);
+  if (solution.mode == ContactMode::open) {  // u = b: every row holds to the last bit
     solution.status = LcpStatus::solved;
     if (!((c.A_nn > 0.0) & (c.friction >= 0.0) & (c.b_n + solution.slip_speed <= 1e300))) judge_in_full(c, solution);
     return solution;
   }
-  // Stick: A f = -b, as F = det(A) f.
-  const double det = c.A_nn * c.A_tt - c.A_nt * c.A_nt;
-  const double F_n = c.A_nt * c.b_t - c.A_tt * c.b_n;
-  const double F_t = c.A_nt * c.b_n - c.A_nn * c.b_t;
-  const double cone_F_n = c.friction * F_n;
-  if (std::abs(F_t) <= cone_F_n) {
-    solution.f_n = F_n / det;
-    solution.f_t = F_t / det;
-    solution.mode = ContactMode::stick;
-  } else {
-    // Slip in direction sigma, against the force that sticking would take, sigma = -sign(F_t): f_t = -sigma mu f_n, f_n
-    // = -b_n / k, slip speed (-sigma F_t - mu F_n) / k. Here k > 0 up to round-off, as b_n < 0 and sticking is
-    // excluded.
-    const double pull = F_t > 0.0 ? c.friction : -c.friction;  // f_t / f_n = -sigma mu
-    const double k = c.A_nn + pull * c.A_nt;
-    solution.f_n = -c.b_n / k;
-    solution.f_t = pull * solution.f_n;
-    solution.slip_speed = (std::abs(F_t) - cone_F_n) / k;
-    solution.mode = F_t > 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
-  }
-  judge(c, F_t > 0.0, solution);
+  const bool pulls_right =
+      solution.mode == ContactMode::stick ? solution.f_t > 0.0 : solution.mode == ContactMode::slip_left;
+  judge(c, pulls_right, solution);
   return solution;
 }
 

@@ -56,6 +56,36 @@ LcpProblem as_lcp(const OneContact& contact);
 // (f_n, f_t1, f_t2, slip speed) of a solution, with the smaller of f_t1, f_t2 equal to 0.
 Vector4 as_z(const OneContactSolution& solution);
 
+// What `solve_one_contact` returns but for status and residual, for those who judge it themselves.
+inline OneContactSolution propose_one_contact(const OneContact& c) {
+  OneContactSolution solution;
+  if (c.b_n >= 0.0) {
+    solution.slip_speed = c.b_t < 0.0 ? -c.b_t : c.b_t;
+    return solution;
+  }
+  // Stick: A f = -b, as F = det(A) f.
+  const double F_n = c.A_nt * c.b_t - c.A_tt * c.b_n;
+  const double F_t = c.A_nt * c.b_n - c.A_nn * c.b_t;
+  const double cone_F_n = c.friction * F_n, size_F_t = F_t < 0.0 ? -F_t : F_t;
+  if (size_F_t <= cone_F_n) {
+    const double det = c.A_nn * c.A_tt - c.A_nt * c.A_nt;
+    solution.f_n = F_n / det;
+    solution.f_t = F_t / det;
+    solution.mode = ContactMode::stick;
+  } else {
+    // Slip in direction sigma, against the force that sticking would take, sigma = -sign(F_t): f_t = -sigma mu f_n, f_n
+    // = -b_n / k, slip speed (-sigma F_t - mu F_n) / k. Here k > 0 up to round-off, as b_n < 0 and sticking is
+    // excluded.
+    const double pull = F_t > 0.0 ? c.friction : -c.friction;  // f_t / f_n = -sigma mu
+    const double k = c.A_nn + pull * c.A_nt;
+    solution.f_n = -c.b_n / k;
+    solution.f_t = pull * solution.f_n;
+    solution.slip_speed = (size_F_t - cone_F_n) / k;
+    solution.mode = F_t > 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
+  }
+  return solution;
+}
+
 // The solution of `as_lcp(contact)`. Where b_n < 0 its motion is unique. Where b_n >= 0 the contact opens without a
 // force; for friction above A_nn / |A_nt| (Painleve) further solutions may exist then, and the one without force is the
 // one returned: `one_contact_motions` lists the others. Derivation: docs/theory/one_contact.md.

@@ -143,6 +143,8 @@ std::vector<Field> to_fields(const Trajectory& trajectory) {
       {"num_steps", "", {}, Numbers{trajectory.num_steps}},
       {"status", "", {}, std::vector<std::string>{std::string(to_string(trajectory.status))}},
       {"residual", "", {}, std::vector<double>{trajectory.residual}},
+      {"num_inexact_steps", "", {}, Numbers{trajectory.num_inexact_steps}},
+      {"first_inexact", "s", {}, std::vector<double>{trajectory.first_inexact}},
       {"is_complete", "", {}, Codes{trajectory.is_complete ? 1 : 0}},
       {"num_creating_steps", "", {}, Numbers{trajectory.num_creating_steps}},
       {"created_energy", "J", {}, std::vector<double>{trajectory.created_energy}},

@@ -129,8 +129,8 @@ void set_motion(const Parts& parts, double h, StepContact& c) {
     const auto b = static_cast<Index>(body);
     return Motion{parts.poses[b].position, parts.middle_velocity[b]};
   };
-  c.speed = contact_velocity(c.rows, parts.velocity);
-  c.free_speed = contact_velocity(c.rows, parts.free_velocity);
+  c.speed = velocity_at(c.rows, parts.velocity);
+  c.free_speed = velocity_at(c.rows, parts.free_velocity);
   if (c.is_ahead) return;
   c.gap_at_start = c.contact.gap;
   c.bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
@@ -239,7 +239,7 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair&
   for (Index i = first; i < contacts.size(); ++i) {
     StepContact& c = contacts[i];
     add_offsets(scene, parts, c);
-    c.gap_at_start = c.contact.gap - impact->time * contact_velocity(c.rows, velocity)[0];
+    c.gap_at_start = c.contact.gap - impact->time * velocity_at(c.rows, velocity)[0];
     c.gap = std::max(c.gap_at_start, 0.0);
   }
 }

@@ -37,7 +37,7 @@ struct Island {
 
   // One contact in closed form.
   void solve_one(StepContact& c, const Velocities& from, Velocities& to) {
-    const auto [u_n, u_t] = contact_velocity(c.rows, from);
+    const auto [u_n, u_t] = velocity_at(c.rows, from);
     OneContact problem{0.0, 0.0, 0.0, u_n + c.offset, u_t, c.friction};
     const auto add_response = [&](int body, const Vector3& normal, const Vector3& tangent) {
       if (body < 0) return;
@@ -119,7 +119,7 @@ struct Island {
   // Where contacts share a load, a force at the edge of its cone is no slip.
   bool slips(const StepContact& c, const Velocities& velocity) const {
     return c.mode != ContactMode::open && c.mode != ContactMode::stick &&
-           std::abs(contact_velocity(c.rows, velocity)[1]) > rest_speed;
+           std::abs(velocity_at(c.rows, velocity)[1]) > rest_speed;
   }
 
   // The same; contacts that static friction does not hold slip with the kinetic one.
@@ -198,7 +198,7 @@ struct Island {
     set_travel(parts.next_velocity);
     const bool closes = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
       const StepContact& c = at(i);
-      return may_bounce(c) && c.gap + c.bend + h * contact_velocity(c.rows, parts.next_velocity)[0] < 0.0;
+      return may_bounce(c) && c.gap + c.bend + h * velocity_at(c.rows, parts.next_velocity)[0] < 0.0;
     });
     if (closes) return false;
     note_forces();
@@ -216,7 +216,7 @@ struct Island {
       stand(parts.way_velocity);
       for (const int i : contacts) {
         StepContact& c = at(i);
-        if (may_bounce(c)) set_bounce(c, contact_velocity(c.rows, parts.way_velocity)[0]);
+        if (may_bounce(c)) set_bounce(c, velocity_at(c.rows, parts.way_velocity)[0]);
       }
       const auto after = count();
       if (after == before) return;
@@ -250,7 +250,7 @@ struct Island {
     set_travel(parts.way_velocity);
     for (const int i : contacts) {
       StepContact& c = at(i);
-      const double way = h * contact_velocity(c.rows, parts.way_velocity)[0];
+      const double way = h * velocity_at(c.rows, parts.way_velocity)[0];
       const double round_off = k_gap_round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])));
       c.is_touched = c.mode != ContactMode::open || c.gap + c.bend + way <= round_off;
     }
@@ -340,7 +340,7 @@ struct Island {
     for (const int i : contacts) {
       StepContact& c = at(i);
       if (!c.is_touched || c.is_included || c.is_load) continue;
-      const double speed = contact_velocity(c.rows, parts.next_velocity)[0], e = c.law->restitution;
+      const double speed = velocity_at(c.rows, parts.next_velocity)[0], e = c.law->restitution;
       if (!(speed < -k_impact_share * largest_speed)) continue;
       c.is_load = -2.0 * e * speed <= std::min(c.speed[0] - speed, load_speed(c)) * (1.0 - e);
       has_more = has_more || c.is_load;
@@ -361,7 +361,7 @@ struct Island {
       for (const int i : contacts) {
         const StepContact& c = at(i);
         if (c.restitution > 0.0)
-          bounced += 0.5 * c.total_impulse[0] * std::abs(contact_velocity(c.rows, parts.next_velocity)[0]);
+          bounced += 0.5 * c.total_impulse[0] * std::abs(velocity_at(c.rows, parts.next_velocity)[0]);
         rubs = rubs || c.total_impulse[1] != 0.0;
         is_elastic = is_elastic && (c.total_impulse[0] == 0.0 || c.restitution == 1.0);
       }
@@ -386,7 +386,7 @@ struct Island {
     bool has_impact = false;
     for (const int i : contacts) {
       StepContact& c = at(i);
-      const double speed = contact_velocity(c.rows, parts.next_velocity)[0];
+      const double speed = velocity_at(c.rows, parts.next_velocity)[0];
       c.is_included = c.is_touched && (speed <= rest_speed || !with_restitution);
       const bool is_impact = c.is_touched && speed < -k_impact_share * largest_speed;
       const double restitution = is_impact && with_restitution ? c.law->restitution : 0.0;
@@ -410,7 +410,7 @@ struct Island {
     for (const int i : contacts) {
       StepContact& c = at(i);
       if (c.impulse[0] == 0.0 && c.impulse[1] == 0.0) continue;
-      const auto u = contact_velocity(c.rows, from), next = contact_velocity(c.rows, to);
+      const auto u = velocity_at(c.rows, from), next = velocity_at(c.rows, to);
       for (Index j = 0; j < 2; ++j) {
         c.total_impulse[j] += c.impulse[j];
         c.work[j] += 0.5 * c.impulse[j] * (u[j] + next[j]);
@@ -452,7 +452,7 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
   if (bounces || !island.land()) island.bounce();
   for (const int i : contacts) {
     StepContact& c = island.at(i);
-    c.speed_after = contact_velocity(c.rows, parts.next_velocity);
+    c.speed_after = velocity_at(c.rows, parts.next_velocity);
     c.mode = c.impact_mode;                                // open, where no round had an impulse
     if (c.friction == 0.0 && c.mode != ContactMode::open)  // no friction tells which way it slips
       c.mode = c.speed_after[1] < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;

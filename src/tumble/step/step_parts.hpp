@@ -155,20 +155,4 @@ IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, do
 void separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, const StepSettings& settings,
               double lost);
 
-// Velocity (u_n, u_t) of the contact where its bodies have the given ones.
-inline std::array<double, 2> contact_velocity(const BodyContact& rows, const std::vector<Vector3>& velocity) {
-  std::array<double, 2> u = {rows.offset, rows.tangent_offset};
-  if (rows.body_a >= 0) {
-    const Vector3& v = velocity[static_cast<std::size_t>(rows.body_a)];
-    u[0] += dot(rows.normal_a, v);
-    u[1] += dot(rows.tangent_a, v);
-  }
-  if (rows.body_b >= 0) {
-    const Vector3& v = velocity[static_cast<std::size_t>(rows.body_b)];
-    u[0] += dot(rows.normal_b, v);
-    u[1] += dot(rows.tangent_b, v);
-  }
-  return u;
-}
-
 }  // namespace tumble

@@ -110,7 +110,7 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
   report.contacts.clear();
   for (StepContact& c : parts.contacts) {
     if (!c.is_listed) {
-      c.speed_after = contact_velocity(c.rows, parts.next_velocity);
+      c.speed_after = velocity_at(c.rows, parts.next_velocity);
       c.mode = ContactMode::open;
       c.sticks = false;
       c.impulse = c.total_impulse = c.work = {};

@@ -80,12 +80,18 @@ void Simulation::sample() {
 
 void Simulation::advance() {
   if (is_done()) return;
-  trajectory_.status =
+  const LcpStatus status =
       time_step(trajectory_.scene, trajectory_.step_size, settings_.step, state_, *workspace_, &report_);
   ++step_;
   state_.time = static_cast<double>(step_) * trajectory_.step_size;
   trajectory_.num_steps = step_;
   trajectory_.residual = std::max(trajectory_.residual, report_.residual);
+  if (status != LcpStatus::solved && report_.residual <= k_largest_residual_to_go_on) {
+    if (trajectory_.num_inexact_steps == 0) trajectory_.first_inexact = state_.time;
+    ++trajectory_.num_inexact_steps;
+  } else {
+    trajectory_.status = status;
+  }
   const EnergyLedger& energy = report_.energy;
   add_step(since_sample_, energy);
   if (energy.created > 0.0) {

@@ -53,7 +53,9 @@ class Simulation {
   EnergyLedger since_sample_;
 };
 
-// The whole run. It ends early, with the status of that step, where a step could not be solved.
+// The whole run. Where a step could not be solved, it goes on if the residual is at most this, for no law of contact is
+// then off by more than that share of the speeds; else it ends with the status of that step.
+inline constexpr double k_largest_residual_to_go_on = 1e-3;
 Trajectory simulate(const Scene& scene, const SimulateSettings& settings = {});
 
 }  // namespace tumble

@@ -28,8 +28,10 @@ struct Trajectory {
   std::vector<StepContacts> contacts;  // of every step in which contacts were at work, if asked for
 
   std::int64_t num_steps = 0;
-  LcpStatus status = LcpStatus::solved;  // of the last step: where it is not `solved` the run ended with it
+  LcpStatus status = LcpStatus::solved;  // other than `solved`: of the last step, with which the run ended
   double residual = 0.0;                 // the largest of all steps
+  std::int64_t num_inexact_steps = 0;    // steps that were not solved, but well enough to go on from them,
+  double first_inexact = -1.0;           // and when first [s]; -1: never
   std::int64_t num_creating_steps = 0;   // steps that created energy,
   double created_energy = 0.0;           // how much in all [J],
   double first_creation = -1.0;          // and when first [s]; -1: never
