@@ -14,6 +14,8 @@ using Velocities = std::vector<Vector3>;
 
 // [-] of what is summed: energy above is created, not rounded.
 constexpr double k_energy_round_off = 1e-12;
+// [-] of the same: a bounce whose energy is off by more is tried again.
+constexpr double k_bounce_round_off = 1e-14;
 // [-] of the way that a contact can go in a step: a gap below is closed.
 constexpr double k_gap_round_off = 1e-12;
 // [-] of the largest speed at the contacts of an island: what approaches or slips slower is at rest.
@@ -380,7 +382,7 @@ struct Island {
       }
       const Created made = created();
       const double wrong = is_elastic ? std::abs(made.energy) : made.energy;
-      if (rubs || wrong <= k_energy_round_off * made.size || !(bounced > 0.0)) return;
+      if (rubs || wrong <= k_bounce_round_off * made.size || !(bounced > 0.0)) return;
       const bool is_last = attempt >= k_max_attempts;
       if (is_last && (made.energy <= 0.0 || attempt >= 2 * k_max_attempts)) return;
       double slope = 0.5 * bounced / square;
