@@ -13,29 +13,46 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_accepted_residual = 1e-10;
-constexpr double k_rest_rounding = 2e-16;  // [-] what is left is round-off: nothing to improve
-constexpr int k_max_path_steps = 20;       // and 2 per contact
-constexpr int k_num_sweeps = 10;
-constexpr int k_num_batches = 10;
-constexpr int k_sweeps_per_batch = 20;
-constexpr int k_max_soft_rounds = 8;
-constexpr double k_hard_ridge = 1e-4;        // [-] as hard as rigid for most
-constexpr int k_max_rounds = 8;              // where Newton gets there, it does so in a few
-constexpr Index k_max_dense_contacts = 120;  // above, the dense LCP takes longer than a step is worth
+constexpr double k_rest_rounding = 1e-15;  // [-] what is left is round-off: nothing to improve
+constexpr double k_path_ridge = 1e-7;      // [-]
+constexpr int k_max_path_pieces = 150;
+constexpr int k_first_rounds = 8;   // of Newton's method: where it gets there, it does so in a few
+constexpr int k_last_rounds = 2;    // the same, near the solution
+constexpr int k_first_sweeps = 20;  // from there on, sweeps no longer choose the modes best
+constexpr double k_first_ridge = 1e-3, k_last_ridge = 1e-9;  // [-]
+constexpr int k_max_proximal_steps = 30;
+constexpr int k_near_rounds = 6, k_max_near_pieces = 50;  // of Newton's method near a point, and of the path to it
+constexpr int k_more_sweeps = 10;
+constexpr double k_close_residual = 1e-5;   // then the modes may be those of rigid contacts
+constexpr Index k_max_dense_contacts = 40;  // above, the dense LCP takes longer than a step is worth
 
 }  // namespace
 
 struct IslandSolver::Parts {
+  // Where a method that may lead nowhere starts.
+  struct Start {
+    std::vector<ContactMode> modes;
+    std::vector<double> impulses;
+    void keep(const BodyModes& from) {
+      modes = from.modes;
+      impulses = from.impulses;
+    }
+    void give_back(BodyModes& to) const {
+      to.modes = modes;
+      to.impulses = impulses;
+    }
+  };
+
   BodyModes modes;
   LcpWorkspace lcp;
   std::vector<ContactMode> best_modes;
   std::vector<double> best_impulses;
-  double best_residual = 0.0;
-  std::vector<double> start_impulses;
+  double residual = 0.0, best_residual = 0.0;
+  Start start;
 
   // Keeps what is better than all before. True if it is good enough.
   bool offer() {
-    const double residual = modes.residual();
+    residual = modes.residual();
     if (residual < best_residual) {
       best_residual = residual;
       best_modes = modes.modes;
@@ -44,47 +61,49 @@ struct IslandSolver::Parts {
     return residual <= k_accepted_residual;
   }
 
-  bool run() { return modes.run(k_max_rounds) && offer(); }
+  bool run(int max_rounds) { return modes.run(max_rounds) && offer(); }
 
-  // Contacts that give way a little have modes that are easy to find: Newton's method finds them, or else the path.
-  // Then they are made harder, each problem a good start for the next one, until the modes are those of rigid contacts.
-  bool harden() {
-    modes.sweep(k_num_sweeps);
-    for (const double ridge : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
-      if (!solve_soft(ridge)) return false;
-      if (ridge > k_hard_ridge) continue;
-      const std::vector<ContactMode> soft_modes = modes.modes;
-      const std::vector<double> soft_impulses = modes.impulses;
-      modes.project();
-      if (run()) return true;
-      modes.modes = soft_modes;
-      modes.impulses = soft_impulses;
-    }
-    return false;
+  // Where contacts give way a little, the modes may be those of rigid ones: then these are solved to round-off.
+  bool finish() {
+    modes.project();
+    offer();
+    if (residual > k_close_residual) return false;
+    start.keep(modes);
+    if (run(k_last_rounds)) return true;
+    start.give_back(modes);
+    return best_residual <= k_accepted_residual;
   }
 
-  // Sweeps get close, from anywhere, but are slow to arrive: Newton's method from where they are, again and again.
-  bool sweep_and_run() {
-    for (int batch = 0; batch < k_num_batches; ++batch) {
-      modes.sweep(k_sweeps_per_batch);
-      offer();
-      const std::vector<ContactMode> swept_modes = modes.modes;
-      const std::vector<double> swept_impulses = modes.impulses;
-      if (run()) return true;
-      modes.modes = swept_modes;
-      modes.impulses = swept_impulses;
-    }
-    return false;
+  // From a solution of a problem like this one, that of the last step or with fewer contacts.
+  bool follow() {
+    if (!modes.follow_near(k_path_ridge, k_max_path_pieces)) return false;
+    return finish();
   }
 
-  bool solve_soft(double ridge) {
-    const std::vector<ContactMode> old_modes = modes.modes;
-    const std::vector<double> old_impulses = modes.impulses;
-    std::fill(modes.impulses.begin(), modes.impulses.end(), 0.0);
-    if (modes.run_near(ridge, k_max_soft_rounds)) return true;
-    modes.modes = old_modes;
-    modes.impulses = old_impulses;
-    return modes.follow(k_max_path_steps + 2 * static_cast<int>(old_modes.size()), ridge);
+  bool start_from(const std::vector<double>& impulses) {
+    const bool is_cold = std::all_of(impulses.begin(), impulses.end(), [](double f) { return f == 0.0; });
+    return is_cold ? run(k_first_rounds) : follow();
+  }
+
+  // The method of proximal points [Rockafellar 1976]: contacts that give way when their impulses change have modes that
+  // are easy to find, and with each point they come to the rigid ones closer. They give way less and less, as far as
+  // the modes can be found.
+  bool approach() {
+    double ridge = k_first_ridge;
+    for (int step = 0; step < k_max_proximal_steps; ++step) {
+      start.keep(modes);
+      if (!modes.run_near(ridge, k_near_rounds) &&
+          (start.give_back(modes), !modes.follow_near(ridge, k_max_near_pieces))) {
+        start.give_back(modes);
+        modes.sweep(k_more_sweeps);
+        if (finish()) return true;
+        ridge = std::min(10.0 * ridge, 1.0);
+        continue;
+      }
+      if (finish()) return true;
+      ridge = std::max(0.1 * ridge, k_last_ridge);
+    }
+    return false;
   }
 
   // By the general solver, which finds all that has a solution, but not as fast.
@@ -98,8 +117,7 @@ struct IslandSolver::Parts {
       const double f_t = modes.impulses[2 * i + 1];
       modes.modes[i] = contact_mode(result.z[i], result.z[3 * m + i], f_t != 0.0 ? -f_t : 1.0);
     }
-    if (offer()) return LcpStatus::solved;
-    return result.status == LcpStatus::solved ? LcpStatus::numerical : result.status;
+    return offer() ? LcpStatus::solved : result.status;
   }
 };
 
@@ -114,7 +132,6 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
   search.modes = modes;
   search.impulses = impulses;
   parts_->best_residual = search.residual();
-  parts_->start_impulses = impulses;
   parts_->best_modes = modes;
   parts_->best_impulses = impulses;
   LcpStatus status = LcpStatus::solved;
@@ -123,11 +140,11 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
     parts_->best_modes = search.modes;
     parts_->best_impulses = search.impulses;
     parts_->best_residual = search.residual();
-  } else if (search.rounding() > k_rest_rounding && !parts_->run()) {
+  } else if (search.rounding() > k_rest_rounding && !parts_->start_from(impulses)) {
     search.modes = modes;
-    search.impulses = parts_->start_impulses;
-    if (!parts_->sweep_and_run() && !parts_->harden() && !parts_->offer() &&
-        parts_->best_residual > k_accepted_residual) {
+    search.impulses = impulses;
+    search.sweep(k_first_sweeps);
+    if (!parts_->finish() && !parts_->approach()) {
       status = LcpStatus::iteration_limit;
       if (system.contacts.size() <= k_max_dense_contacts) status = parts_->search_dense(system);
     }

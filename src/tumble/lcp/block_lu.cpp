@@ -12,6 +12,16 @@ namespace {
 using Index = std::size_t;
 
 constexpr int k_natural_order_size = 8;  // up to here any order is as good
+constexpr Index k_max_updates = 16;
+constexpr double k_smallest_update = 1e-8;  // [-] what an update leaves of a direction
+
+double dot(const BlockLu::SparseVector& row, const std::vector<Vector3>& x) {
+  double sum = 0.0;
+  for (Index k = 0; k < 2; ++k) {
+    if (row.row[k] >= 0) sum += tumble::dot(row.value[k], x[static_cast<Index>(row.row[k])]);
+  }
+  return sum;
+}
 
 // a := a - b c
 inline void subtract_product(Matrix3& a, const Matrix3& b, const Matrix3& c) {
@@ -153,6 +163,7 @@ void BlockLu::set_pattern(int num_rows, const Pairs& pairs) {
 void BlockLu::clear() { std::fill(blocks_.begin(), blocks_.end(), Matrix3{}); }
 
 bool BlockLu::factor() {
+  num_updates_ = 0;
   for (Index k = 0; k < static_cast<Index>(num_rows_); ++k) {
     if (!factor_block(blocks_[k])) return false;
     const auto count = static_cast<Index>(column_begin_[k + 1] - column_begin_[k]);
@@ -168,6 +179,25 @@ bool BlockLu::factor() {
       }
     }
   }
+  return true;
+}
+
+bool BlockLu::update(const SparseVector& column, const SparseVector& row) {
+  if (num_updates_ == k_max_updates) return false;
+  if (updates_.size() == num_updates_) updates_.emplace_back();
+  Update& update = updates_[num_updates_];
+  update.row = row;
+  update.step.assign(static_cast<Index>(num_rows_), Vector3{});
+  for (Index k = 0; k < 2; ++k) {
+    if (column.row[k] >= 0) update.step[static_cast<Index>(column.row[k])] = column.value[k];
+  }
+  solve(update.step);
+  const double left = 1.0 + dot(row, update.step);
+  if (!(std::abs(left) > k_smallest_update)) return false;
+  for (Vector3& block : update.step) {
+    for (double& entry : block) entry /= left;
+  }
+  ++num_updates_;
   return true;
 }
 
@@ -194,6 +224,12 @@ void BlockLu::solve(std::vector<Vector3>& x) const {
     y[2] *= lu[2][2];
     y[1] = (y[1] - lu[1][2] * y[2]) * lu[1][1];
     y[0] = (y[0] - lu[0][1] * y[1] - lu[0][2] * y[2]) * lu[0][0];
+  }
+  for (Index u = 0; u < num_updates_; ++u) {
+    const double weight = dot(updates_[u].row, x);
+    for (Index b = 0; b < n; ++b) {
+      for (Index j = 0; j < 3; ++j) x[b][j] -= weight * updates_[u].step[b][j];
+    }
   }
 }
 

@@ -31,6 +31,16 @@ class BlockLu {
   // In place. False if a pivot is 0 or not finite.
   bool factor();
 
+  // Of two rows of blocks, or of one (then the other is -1), the entries of a vector that are not 0.
+  struct SparseVector {
+    std::array<int, 2> row{-1, -1};
+    std::array<Vector3, 2> value{};
+  };
+
+  // Factors of A + column row' from those of A [Sherman & Morrison 1950]. False, and nothing changed, if that would
+  // lose more than half of the digits, or has been done so often since `factor` that this costs less.
+  bool update(const SparseVector& column, const SparseVector& row);
+
   // x := A^-1 x.
   void solve(std::vector<Vector3>& x) const;
 
@@ -46,6 +56,12 @@ class BlockLu {
   std::vector<int> lower_begin_;                   // per step k: first of its blocks (r, k); (k, r) follow in turn
   std::vector<int> update_begin_, update_target_;  // per step k: the blocks that its elimination changes
   std::vector<Matrix3> blocks_;                    // diagonal blocks first, in the order of elimination
+  struct Update {
+    SparseVector row;
+    std::vector<Vector3> step;  // x := x - (row . x) step
+  };
+  std::vector<Update> updates_;  // the first num_updates_ of them, in turn
+  std::size_t num_updates_ = 0;
 };
 
 }  // namespace tumble

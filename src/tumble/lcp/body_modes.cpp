@@ -13,10 +13,6 @@ constexpr double k_round_off = 1e-14;      // relative: contradictions below are
 constexpr double k_rounding_share = 1e-5;  // an accepted residual of 1e-10 is then some 5 times the rounding of terms
 constexpr int k_max_corrections = 12;      // each gains the digits that ridge over the smallest eigenvalue of A leaves
 
-double slip_direction(ContactMode mode) {
-  return mode == ContactMode::slip_left ? -1.0 : mode == ContactMode::slip_right ? 1.0 : 0.0;
-}
-
 bool is_normal_change(ContactMode from, ContactMode to) {
   return (from == ContactMode::open) != (to == ContactMode::open);
 }
@@ -55,15 +51,12 @@ void BodyModes::load(const ContactSystem& system) {
   for (Index i = 0; i < num_contacts; ++i) {
     const BodyContact& c = system.contacts[i];
     Block& block = response_[i];
-    const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
-      if (body < 0) return;
-      const Vector3& inverse_mass = system.inverse_mass[static_cast<Index>(body)];
+    for_bodies(c, [&](Index b, const Vector3& normal, const Vector3& tangent) {
+      const Vector3& inverse_mass = system.inverse_mass[b];
       block.nn += response(normal, normal, inverse_mass);
       block.nt += response(normal, tangent, inverse_mass);
       block.tt += response(tangent, tangent, inverse_mass);
-    };
-    add(c.body_a, c.normal_a, c.tangent_a);
-    add(c.body_b, c.normal_b, c.tangent_b);
+    });
     const auto [u_n, u_t] = velocity_at(c, system.velocity);
     speed_ = std::max({speed_, std::abs(u_n), std::abs(u_t)});
     if (c.body_a >= 0 && c.body_b >= 0) pairs_.push_back({std::min(c.body_a, c.body_b), std::max(c.body_a, c.body_b)});
@@ -79,11 +72,6 @@ void BodyModes::load(const ContactSystem& system) {
   }
 }
 
-void BodyModes::start() {
-  modes.assign(system_->contacts.size(), ContactMode::open);
-  impulses.assign(2 * system_->contacts.size(), 0.0);
-}
-
 const std::vector<Vector3>& BodyModes::find_velocities() {
   v_ = system_->velocity;
   terms_.resize(v_.size());
@@ -93,18 +81,13 @@ const std::vector<Vector3>& BodyModes::find_velocities() {
   for (Index i = 0; i < modes.size(); ++i) {
     const double f_n = impulses[2 * i], f_t = impulses[2 * i + 1];
     if (f_n == 0.0 && f_t == 0.0) continue;
-    const BodyContact& c = system_->contacts[i];
-    const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
-      if (body < 0) return;
-      const auto b = static_cast<Index>(body);
+    for_bodies(system_->contacts[i], [&](Index b, const Vector3& normal, const Vector3& tangent) {
       for (Index j = 0; j < 3; ++j) {
         const double w = system_->inverse_mass[b][j], term_n = w * normal[j] * f_n, term_t = w * tangent[j] * f_t;
         v_[b][j] += w * (normal[j] * f_n + tangent[j] * f_t);
         terms_[b][j] += std::abs(term_n) + std::abs(term_t);
       }
-    };
-    add(c.body_a, c.normal_a, c.tangent_a);
-    add(c.body_b, c.normal_b, c.tangent_b);
+    });
   }
   return v_;
 }
@@ -115,18 +98,15 @@ void BodyModes::find_contact_velocities() {
     const BodyContact& c = system_->contacts[i];
     double n = c.offset, t = c.tangent_offset;
     double size_n = speed_, size_t = speed_;
-    const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
-      if (body < 0) return;
-      const Vector3 &v = v_[static_cast<Index>(body)], &terms = terms_[static_cast<Index>(body)];
+    for_bodies(c, [&](Index b, const Vector3& normal, const Vector3& tangent) {
+      const Vector3 &v = v_[b], &terms = terms_[b];
       for (Index j = 0; j < 3; ++j) {
         n += normal[j] * v[j];
         t += tangent[j] * v[j];
         size_n += std::abs(normal[j]) * terms[j];
         size_t += std::abs(tangent[j]) * terms[j];
       }
-    };
-    add(c.body_a, c.normal_a, c.tangent_a);
-    add(c.body_b, c.normal_b, c.tangent_b);
+    });
     u_[i] = {n, t};
     size_[i] = {size_n, size_t};
   }
@@ -171,23 +151,12 @@ double BodyModes::sweep(int num_sweeps) {
       f_t = solution.f_t;
       modes[i] = solution.mode;
       change = std::max({change, A.nn * std::abs(change_n), A.tt * std::abs(change_t)});
-      const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
-        if (body < 0) return;
-        const auto b = static_cast<Index>(body);
+      for_bodies(c, [&](Index b, const Vector3& normal, const Vector3& tangent) {
         add_impulse(v_[b], system_->inverse_mass[b], normal, tangent, change_n, change_t);
-      };
-      add(c.body_a, c.normal_a, c.tangent_a);
-      add(c.body_b, c.normal_b, c.tangent_b);
+      });
     }
   }
   return speed_ > 0.0 ? change / speed_ : 0.0;
-}
-
-void BodyModes::hold() {
-  for (Index i = 0; i < modes.size(); ++i) {
-    const double u_t = velocity_at(system_->contacts[i], system_->velocity)[1];
-    if (modes[i] != ContactMode::open && !(slip_direction(modes[i]) * u_t > 0.0)) modes[i] = ContactMode::stick;
-  }
 }
 
 // Impulses that the modes allow: none where open, on the edge of the cone where the contact slips.
@@ -249,13 +218,9 @@ double BodyModes::correct() {
         sticks ? -u_[i][1] / (ridge_ * response_[i].tt) : -slip_direction(modes[i]) * c.friction * pull_n;
     if (size_[i][0] > 0.0) largest = std::max(largest, std::abs(u_[i][0]) / size_[i][0]);
     if (sticks && size_[i][1] > 0.0) largest = std::max(largest, std::abs(u_[i][1]) / size_[i][1]);
-    const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
-      if (body < 0) return;
-      Vector3& sum = step_[static_cast<Index>(body)];
-      for (Index j = 0; j < 3; ++j) sum[j] += normal[j] * pull_n + tangent[j] * pull_t;
-    };
-    add(c.body_a, c.normal_a, c.tangent_a);
-    add(c.body_b, c.normal_b, c.tangent_b);
+    for_bodies(c, [&](Index b, const Vector3& normal, const Vector3& tangent) {
+      for (Index j = 0; j < 3; ++j) step_[b][j] += normal[j] * pull_n + tangent[j] * pull_t;
+    });
   }
   if (largest <= k_round_off / 100.0) return largest;
   equations_.solve(step_);
@@ -364,160 +329,6 @@ int BodyModes::change_modes() {
     ++num_changes;
   }
   return num_changes;
-}
-
-// Of contacts that give way, u + ridge diag(A) f in place of u.
-void BodyModes::respond(const std::vector<Vector3>* before, const std::vector<Pair>& offsets, Response& response) {
-  const Index num_contacts = modes.size();
-  response.f.assign(2 * num_contacts, 0.0);
-  response.u.resize(num_contacts);
-  for (int round = 0;; ++round) {
-    if (before) {
-      response.v = *before;
-    } else {
-      response.v.assign(mass_.size(), Vector3{});
-    }
-    const auto visit = [&](auto&& action) {
-      for (Index i = 0; i < num_contacts; ++i) {
-        const BodyContact& c = system_->contacts[i];
-        if (c.body_a >= 0) action(i, static_cast<Index>(c.body_a), c.normal_a, c.tangent_a);
-        if (c.body_b >= 0) action(i, static_cast<Index>(c.body_b), c.normal_b, c.tangent_b);
-      }
-    };
-    visit([&](Index i, Index b, const Vector3& normal, const Vector3& tangent) {
-      add_impulse(response.v[b], system_->inverse_mass[b], normal, tangent, response.f[2 * i], response.f[2 * i + 1]);
-    });
-    response.u = offsets;
-    visit([&](Index i, Index b, const Vector3& normal, const Vector3& tangent) {
-      response.u[i][0] += dot(normal, response.v[b]);
-      response.u[i][1] += dot(tangent, response.v[b]);
-    });
-    if (round == 1) {
-      for (Index i = 0; i < num_contacts; ++i) {
-        response.u[i][0] += ridge_ * response_[i].nn * response.f[2 * i];
-        response.u[i][1] += ridge_ * response_[i].tt * response.f[2 * i + 1];
-      }
-      return;
-    }
-    step_.assign(mass_.size(), Vector3{});
-    const auto lean = [&](Index i) { return -slip_direction(modes[i]) * system_->contacts[i].friction; };
-    visit([&](Index i, Index b, const Vector3& normal, const Vector3& tangent) {
-      if (modes[i] == ContactMode::open) return;
-      const double pull_n = -response.u[i][0] / (ridge_ * response_[i].nn);
-      const double pull_t =
-          modes[i] == ContactMode::stick ? -response.u[i][1] / (ridge_ * response_[i].tt) : lean(i) * pull_n;
-      for (Index j = 0; j < 3; ++j) step_[b][j] += normal[j] * pull_n + tangent[j] * pull_t;
-    });
-    equations_.solve(step_);
-    std::vector<Pair>& left = size_;  // scratch
-    left = response.u;
-    visit([&](Index i, Index b, const Vector3& normal, const Vector3& tangent) {
-      left[i][0] += dot(normal, step_[b]);
-      left[i][1] += dot(tangent, step_[b]);
-    });
-    for (Index i = 0; i < num_contacts; ++i) {
-      if (modes[i] == ContactMode::open) continue;
-      response.f[2 * i] -= left[i][0] / (ridge_ * response_[i].nn);
-      if (modes[i] == ContactMode::stick) {
-        response.f[2 * i + 1] -= left[i][1] / (ridge_ * response_[i].tt);
-      } else {
-        response.f[2 * i + 1] = lean(i) * response.f[2 * i];
-      }
-    }
-  }
-}
-
-// b + lambda drift is a problem that the impulses of the sweeps solve for lambda = 1, and the one asked for is at 0.
-void BodyModes::find_drift() {
-  find_velocities();
-  find_contact_velocities();
-  drift_.assign(modes.size(), Pair{});
-  offset_.resize(modes.size());
-  for (Index i = 0; i < modes.size(); ++i) {
-    offset_[i] = {system_->contacts[i].offset, system_->contacts[i].tangent_offset};
-    const double u_n = u_[i][0] + ridge_ * response_[i].nn * impulses[2 * i];
-    const double u_t = u_[i][1] + ridge_ * response_[i].tt * impulses[2 * i + 1];
-    if (modes[i] == ContactMode::open) {
-      drift_[i][0] = std::abs(u_n) - u_n;
-    } else {
-      drift_[i] = {-u_n, slip_direction(modes[i]) * std::abs(u_t) - u_t};
-    }
-  }
-}
-
-// Conditions of contact i in its mode: value >= 0, the mode that follows where it reaches 0. At most two.
-int BodyModes::list_conditions(Index i, const Response& response, Pair& values) const {
-  const double mu = system_->contacts[i].friction;
-  const double limit = mu * response.f[2 * i];
-  switch (modes[i]) {
-    case ContactMode::open: values[0] = response.u[i][0]; return 1;
-    case ContactMode::stick: values = {limit - response.f[2 * i + 1], limit + response.f[2 * i + 1]}; return 2;
-    default: values = {response.f[2 * i], slip_direction(modes[i]) * response.u[i][1]}; return mu > 0.0 ? 2 : 1;
-  }
-}
-
-ContactMode BodyModes::next_mode(Index i, int condition, double u_t) const {
-  switch (modes[i]) {
-    case ContactMode::open:
-      return system_->contacts[i].friction > 0.0 && u_t < 0.0 ? ContactMode::slip_left : ContactMode::slip_right;
-    case ContactMode::stick: return condition == 0 ? ContactMode::slip_left : ContactMode::slip_right;
-    default: return condition == 0 ? ContactMode::open : ContactMode::stick;
-  }
-}
-
-bool BodyModes::follow(int max_steps, double ridge) {
-  constexpr double largest_lambda = 1000.0;  // far back is the way to a ray
-  // The condition in which a mode just taken is at its border: the one that must grow from there on.
-  const auto border_condition = [](ContactMode from, ContactMode to) {
-    if (to == ContactMode::stick) return from == ContactMode::slip_left ? 0 : 1;
-    return from == ContactMode::stick ? 1 : 0;
-  };
-  ridge_ = ridge;
-  find_drift();
-  double lambda = 1.0, sign = -1.0;
-  Index changed = modes.size();
-  int border = 0;
-  seen_.clear();
-  for (int step_count = 0; step_count < max_steps; ++step_count) {
-    fill_equations();
-    ++factorisations_;
-    if (!equations_.factor()) return false;
-    respond(&system_->velocity, offset_, here_);
-    respond(nullptr, drift_, slope_);
-    Pair value{}, slope{};
-    if (changed < modes.size()) {
-      list_conditions(changed, slope_, slope);
-      sign = slope[static_cast<Index>(border)] > 0.0 ? 1.0 : -1.0;
-    }
-    double step = sign < 0.0 ? lambda : HUGE_VAL;
-    Index next = modes.size();
-    int next_condition = 0;
-    for (Index i = 0; i < modes.size(); ++i) {
-      const int count = list_conditions(i, here_, value);
-      list_conditions(i, slope_, slope);
-      for (int k = 0; k < count; ++k) {
-        if (i == changed && k == border) continue;
-        const double rate = -sign * slope[static_cast<Index>(k)];
-        const double rest = std::max(value[static_cast<Index>(k)] + lambda * slope[static_cast<Index>(k)], 0.0);
-        if (rate > 0.0 && rest < step * rate) {
-          step = rest / rate;
-          next = i;
-          next_condition = k;
-        }
-      }
-    }
-    if (next == modes.size()) {
-      if (sign < 0.0) impulses = here_.f;
-      return sign < 0.0;
-    }
-    lambda += sign * step;
-    const ContactMode from = modes[next];
-    modes[next] = next_mode(next, next_condition, here_.u[next][1] + lambda * slope_.u[next][1]);
-    border = border_condition(from, modes[next]);
-    changed = next;
-    if (is_seen() || !(lambda <= largest_lambda)) return false;
-  }
-  return false;
 }
 
 // True if these modes were tried before: the rounds would go in a circle.

@@ -26,15 +26,9 @@ class BodyModes {
   // The system to solve from now on, which must outlive the calls below. Bodies have positive masses.
   void load(const ContactSystem& system);
 
-  // All open, no impulse.
-  void start();
-
   // Sweeps of block Gauss-Seidel over the contacts, from the present impulses: a guess of modes and impulses. Returns
   // the largest change of a velocity in the last sweep, relative to the largest speed.
   double sweep(int num_sweeps);
-
-  // Contacts that slip, but did not slide that way before the impulses, stick.
-  void hold();
 
   // Impulses onto the cones: none pulls, none is outside.
   void project();
@@ -46,10 +40,10 @@ class BodyModes {
   // impulses. The larger the ridge, the easier to solve, and the closer to where it started.
   bool run_near(double ridge, int max_rounds);
 
-  // Follows the path from the problem that the present impulses, those of sweeps, solve to the one asked for; after
-  // each piece of it one contact changes its mode [Lemke's method with the modes of contacts for a basis]. Leaves modes
-  // for `run`. False if the path leads nowhere: into a ray, or, where contacts depend on each other, in a circle.
-  bool follow(int max_steps, double ridge);
+  // The same by following the path from the problem that the present impulses solve, those of `sweep`, `project` or of
+  // this, to the one asked for; after each piece of it one contact changes its mode [Lemke's method with the modes of
+  // contacts for a basis]. Slower, and gets there more often. False if the path leads nowhere, or on for too long.
+  bool follow_near(double ridge, int max_pieces);
 
   // Velocities of the bodies after `impulses`.
   const std::vector<Vector3>& find_velocities();
@@ -76,17 +70,17 @@ class BodyModes {
 
   using Pair = std::array<double, 2>;  // (n, t)
 
-  // Impulses and velocities that follow from the modes, for some velocities before and offsets.
+  // Impulses that the modes call for, and the velocities at the contacts with them.
   struct Response {
     std::vector<double> f;
-    std::vector<Vector3> v;
     std::vector<Pair> u;
   };
 
   void fill_equations();
   double correct();
-  void respond(const std::vector<Vector3>* before, const std::vector<Pair>& offsets, Response& response);
-  void find_drift();
+  void respond(const std::vector<Pair>& offsets, Response& response);
+  void start_path();
+  bool change_mode_on_path(std::size_t i, ContactMode mode);
   int list_conditions(std::size_t i, const Response& response, Pair& values) const;
   ContactMode next_mode(std::size_t i, int condition, double u_t) const;
   void find_contact_velocities();
@@ -110,7 +104,7 @@ class BodyModes {
   std::vector<int> pair_of_;  // contact -> pair of bodies, or -1
   BlockLu equations_;
   std::vector<double> start_impulses_;  // of a run
-  std::vector<Pair> offset_, drift_;    // of the contacts; what changes along a path
+  std::vector<Pair> drift_;             // of offsets along a path
   Response here_, slope_;               // on a path
   std::vector<std::uint64_t> seen_;
   std::vector<Objection> objections_;

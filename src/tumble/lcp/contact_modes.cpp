@@ -11,10 +11,6 @@ namespace {
 using Index = std::size_t;
 
 // -1, 1 for the direction of slip, 0 else.
-double slip_direction(ContactMode mode) {
-  return mode == ContactMode::slip_left ? -1.0 : mode == ContactMode::slip_right ? 1.0 : 0.0;
-}
-
 constexpr double k_ridge = 1e-10;      // [-] of the diagonal
 constexpr double k_path_ridge = 1e-8;  // the same along a path, where the last digits decide which way it goes
 constexpr double k_round_off = 1e-13;  // relative: contradictions below are not real

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "tumble/lcp/one_contact.hpp"
@@ -25,6 +26,13 @@ struct BodyContact {
   double offset = 0.0;          // [m/s]: gap / step size, restitution times the approach speed, ...
   double tangent_offset = 0.0;  // [m/s]: what moves without being a body of the system, a conveyor for one
 };
+
+// f(body, normal row, tangent row) for each body of the contact that is not the world.
+template <typename F>
+void for_bodies(const BodyContact& contact, F&& f) {
+  if (contact.body_a >= 0) f(static_cast<std::size_t>(contact.body_a), contact.normal_a, contact.tangent_a);
+  if (contact.body_b >= 0) f(static_cast<std::size_t>(contact.body_b), contact.normal_b, contact.tangent_b);
+}
 
 struct ContactSystem {
   std::vector<Vector3> inverse_mass;  // per body: (1/m, 1/m, 1/I), each >= 0

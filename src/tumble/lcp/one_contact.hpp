@@ -32,6 +32,11 @@ enum class ContactMode : std::uint8_t {
   slip_right,  // towards +t; friction points to -t
 };
 
+// -1, 1, or 0 where the contact does not slip.
+inline double slip_direction(ContactMode mode) {
+  return mode == ContactMode::slip_left ? -1.0 : mode == ContactMode::slip_right ? 1.0 : 0.0;
+}
+
 // "open", "stick", "slip left", "slip right".
 std::string_view to_string(ContactMode mode);
 

@@ -62,24 +62,54 @@ void find_islands(Parts& parts) {
   parts.island_begin.push_back(num_listed);
 }
 
+// f(contacts, outcome) for each island.
+template <typename F>
+void for_islands(Parts& parts, const F& f) {
+  for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
+    const auto begin = static_cast<Index>(parts.island_begin[i]), end = static_cast<Index>(parts.island_begin[i + 1]);
+    const IslandContacts contacts = IslandContacts(parts.island_contact).subspan(begin, end - begin);
+    f(contacts, parts.outcome[static_cast<Index>(contacts.front())]);
+  }
+}
+
 }  // namespace
+
+void list_bodies(Parts& parts, IslandContacts contacts) {
+  parts.island_body.clear();
+  for (const int i : contacts) {
+    const BodyContact& rows = parts.contacts[static_cast<Index>(i)].rows;
+    for (const int body : {rows.body_a, rows.body_b}) {
+      if (body < 0 || parts.local_body[static_cast<Index>(body)] >= 0) continue;
+      parts.local_body[static_cast<Index>(body)] = static_cast<int>(parts.island_body.size());
+      parts.island_body.push_back(body);
+    }
+  }
+}
+
+void forget_bodies(Parts& parts) {
+  for (const int body : parts.island_body) parts.local_body[static_cast<Index>(body)] = -1;
+}
 
 void step_islands(double h, const StepSettings& settings, Parts& parts) {
   parts.island_begin.assign(1, 0);
   parts.island_contact.clear();
   if (parts.contacts.empty()) return;
   do {
-    find_islands(parts);
-    for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
-      const auto begin = static_cast<Index>(parts.island_begin[i]), end = static_cast<Index>(parts.island_begin[i + 1]);
-      const IslandContacts contacts = IslandContacts(parts.island_contact).subspan(begin, end - begin);
-      bool is_new = false;
-      for (const int c : contacts) {
-        is_new = is_new || parts.contacts[static_cast<Index>(c)].is_new;
-        parts.contacts[static_cast<Index>(c)].is_new = false;
-      }
-      if (is_new) parts.outcome[static_cast<Index>(contacts.front())] = step_island(parts, contacts, h, settings);
-    }
+    do {
+      find_islands(parts);
+      for_islands(parts, [&](IslandContacts contacts, IslandOutcome& outcome) {
+        bool is_new = false;
+        for (const int c : contacts) {
+          is_new = is_new || parts.contacts[static_cast<Index>(c)].is_new;
+          parts.contacts[static_cast<Index>(c)].is_new = false;
+        }
+        if (is_new) outcome = step_island(parts, contacts, h, settings);
+      });
+    } while (list_overrun(h, parts));
+    for_islands(parts, [&](IslandContacts contacts, IslandOutcome& outcome) {
+      if (outcome.has_moved) separate(parts, contacts, h, settings, outcome.lost);
+      outcome.has_moved = false;
+    });
   } while (list_overrun(h, parts));
 }
 

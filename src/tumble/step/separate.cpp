@@ -10,60 +10,58 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_round_off = 1e-12;  // [-] of the size of the bodies: overlap below is none
-constexpr double k_unmoved = 1e-15;    // [-] of the same: the sweeps have arrived
-constexpr int k_max_sweeps = 1000;     // what overlap they leave is met by those of the next step
-constexpr int k_fast_sweeps = 10;      // of the fast solver
 
-// Both bodies of a contact: f(body, row of the normal).
-template <typename F>
-void for_bodies(const BodyContact& rows, const F& f) {
-  if (rows.body_a >= 0) f(static_cast<Index>(rows.body_a), rows.normal_a);
-  if (rows.body_b >= 0) f(static_cast<Index>(rows.body_b), rows.normal_b);
-}
-
-double overlap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
+double gap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
   double gap = c.gap_at_start + c.way_bend + h * c.rows.offset;
-  for_bodies(c.rows, [&](Index b, const Vector3& row) { gap += dot(row, parts.travel[b]); });
-  return -gap;
+  for_bodies(c.rows, [&](Index b, const Vector3& row, const Vector3&) { gap += dot(row, parts.travel[b]); });
+  return gap;
 }
 
-// What does not change in the sweeps.
-SeparationRow row_of(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
-  SeparationRow row{c.gap_at_start + c.way_bend + h * c.rows.offset, 0.0, 0.0, 0.0, 0, {}};
-  for_bodies(c.rows, [&](Index b, const Vector3& n) {
-    SeparationRow::Side& side = row.sides[row.num_sides++];
-    side = {b, n, {}, dot(n, parts.travel[b])};
-    for (Index j = 0; j < 3; ++j) {
-      side.response[j] = parts.inverse_mass[b][j] * n[j];
-      row.response += n[j] * n[j] * parts.inverse_mass[b][j];
-    }
-    row.size = std::max(row.size, parts.radius[b]);
-  });
-  return row;
-}
-
-// One step of projected Gauss-Seidel on the multiplier of gap >= 0. True if it moved something.
-bool sweep(SeparationRow& row, std::vector<Vector3>& shift) {
-  double gap = row.gap;
-  for (Index k = 0; k < row.num_sides; ++k) {
-    const SeparationRow::Side& side = row.sides[k];
-    gap += side.travel + dot(side.normal, shift[side.body]);
+// What is to be added to the travel of each body of the island: the LCP of frictionless contacts, with ways [m] for
+// velocities and multipliers [kg m] for impulses.
+void find_shifts(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings) {
+  const auto at = [&](int i) -> const StepContact& { return parts.contacts[static_cast<Index>(i)]; };
+  if (contacts.size() == 1) {
+    const StepContact& c = at(contacts[0]);
+    double response = 0.0;
+    for_bodies(c.rows, [&](Index b, const Vector3& n, const Vector3&) {
+      for (Index j = 0; j < 3; ++j) response += n[j] * n[j] * parts.inverse_mass[b][j];
+    });
+    const double push = -gap_after(parts, c, h) / response;
+    for_bodies(c.rows, [&](Index b, const Vector3& n, const Vector3&) {
+      for (Index j = 0; j < 3; ++j) parts.shift[b][j] = parts.inverse_mass[b][j] * n[j] * push;
+    });
+    return;
   }
-  const double push = std::max(0.0, row.push - gap / row.response), more = push - row.push;
-  if (more == 0.0) return false;
-  for (Index k = 0; k < row.num_sides; ++k) {
-    const SeparationRow::Side& side = row.sides[k];
-    for (Index j = 0; j < 3; ++j) shift[side.body][j] += side.response[j] * more;
+  IslandSolver& solver = parts.separator;
+  solver.system.inverse_mass.clear();
+  solver.system.velocity.assign(parts.island_body.size(), Vector3{});
+  solver.system.contacts.clear();
+  solver.modes.clear();
+  solver.impulses.assign(2 * contacts.size(), 0.0);
+  for (const int body : parts.island_body) {
+    solver.system.inverse_mass.push_back(parts.inverse_mass[static_cast<Index>(body)]);
   }
-  row.push = push;
-  return std::abs(more) * row.response > k_unmoved * row.size;
+  const auto local = [&](int body) { return body < 0 ? -1 : parts.local_body[static_cast<Index>(body)]; };
+  for (const int i : contacts) {
+    BodyContact& rows = solver.system.contacts.emplace_back(at(i).rows);
+    rows.body_a = local(rows.body_a);
+    rows.body_b = local(rows.body_b);
+    rows.offset = gap_after(parts, at(i), h);
+    rows.tangent_offset = 0.0;
+    rows.friction = 0.0;
+    solver.modes.push_back(rows.offset < 0.0 ? ContactMode::slip_right : ContactMode::open);
+  }
+  solver.solve({settings.solver, settings.num_sweeps});  // what overlap is left is met in the next step
+  for (Index k = 0; k < parts.island_body.size(); ++k) {
+    parts.shift[static_cast<Index>(parts.island_body[k])] = solver.velocity[k];
+  }
 }
 
 }  // namespace
 
-bool separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
+void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
               double lost) {
-  const int max_sweeps = settings.solver == ContactSolver::fast ? k_fast_sweeps : k_max_sweeps;
   const auto at = [&](int i) -> StepContact& { return parts.contacts[static_cast<Index>(i)]; };
   // The bend of the way that was found, with slips that impacts may have changed.
   const auto motion_of = [&](int body) {
@@ -80,32 +78,24 @@ bool separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
   }
   const bool has_overlap = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
     double size = 0.0;
-    for_bodies(at(i).rows, [&](Index b, const Vector3&) { size = std::max(size, parts.radius[b]); });
-    return overlap_after(parts, at(i), h) > k_round_off * size;
+    for_bodies(at(i).rows, [&](Index b, const Vector3&, const Vector3&) { size = std::max(size, parts.radius[b]); });
+    return gap_after(parts, at(i), h) < -k_round_off * size;
   });
-  if (!has_overlap) return false;
+  if (!has_overlap) return;
+  list_bodies(parts, contacts);
 
-  parts.separation.clear();
-  for (const int i : contacts) parts.separation.push_back(row_of(parts, at(i), h));
-  for (int count = 0; count < max_sweeps; ++count) {
-    bool has_moved = false;
-    for (SeparationRow& row : parts.separation) has_moved = sweep(row, parts.shift) || has_moved;
-    if (!has_moved) break;
-  }
-
+  find_shifts(parts, contacts, h, settings);
   double work = 0.0;  // against the forces
   for (const int body : parts.island_body) {
-    const auto b = static_cast<Index>(body);
-    work -= dot(parts.force[b], parts.shift[b]);
+    work -= dot(parts.force[static_cast<Index>(body)], parts.shift[static_cast<Index>(body)]);
   }
   const double paid = std::max(lost, 0.0);
   const double share = work > paid ? paid / work : 1.0;
   for (const int body : parts.island_body) {
     const auto b = static_cast<Index>(body);
     for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];
-    parts.shift[b] = {};
   }
-  return true;
+  forget_bodies(parts);
 }
 
 }  // namespace tumble

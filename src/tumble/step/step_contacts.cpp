@@ -362,6 +362,35 @@ void stop_at_impacts(const Scene& scene, double h, Parts& parts) {
   }
 }
 
+void look_further(const Scene& scene, double h, const State& state, Parts& parts) {
+  std::swap(parts.contacts, parts.last_contacts);
+  std::swap(parts.outcome, parts.last_outcome);
+  prepare_contacts(scene, h, state, parts);
+  const auto is_listed = [](const StepContact& c) { return c.is_listed; };
+  auto num_lost = std::count_if(parts.last_contacts.begin(), parts.last_contacts.end(), is_listed);
+  Index next = 0;
+  for (Index i = 0; i < parts.contacts.size(); ++i) {
+    StepContact& c = parts.contacts[i];
+    while (next < parts.last_contacts.size() && key_of(parts.last_contacts[next].contact) < key_of(c.contact)) ++next;
+    if (next == parts.last_contacts.size()) break;
+    const StepContact& last = parts.last_contacts[next];
+    const Vector2 turn = last.contact.normal - c.contact.normal;
+    if (key_of(last.contact) != key_of(c.contact) || last.is_ahead != c.is_ahead || turn.x != 0.0 || turn.y != 0.0)
+      continue;
+    if (last.is_listed) --num_lost;
+    c = last;
+    parts.outcome[i] = parts.last_outcome[next++];
+  }
+  if (num_lost == 0) return;
+  // A pair of bodies is seen otherwise from further away: all start over.
+  for (StepContact& c : parts.contacts) c.is_new = c.is_listed;
+  for (Index i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].kind != BodyKind::dynamic) continue;
+    parts.next_velocity[i] = parts.force_velocity[i] = parts.free_velocity[i];
+    for (Index j = 0; j < 3; ++j) parts.travel[i][j] = h * parts.middle_velocity[i][j];
+  }
+}
+
 bool list_overrun(double h, Parts& parts) {
   constexpr double round_off = 1e-12;  // [-] of the way
   bool has_new = false;

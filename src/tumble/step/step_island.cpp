@@ -14,8 +14,8 @@ using Velocities = std::vector<Vector3>;
 
 // [-] of what is summed: energy above is created, not rounded.
 constexpr double k_energy_round_off = 1e-12;
-// [-] of the same: a bounce whose energy is off by more is tried again.
-constexpr double k_bounce_round_off = 1e-14;
+// [-] of the same: bounces that share their energy aim at this.
+constexpr double k_energy_aim = 1e-14;
 // [-] of the way that a contact can go in a step: a gap below is closed.
 constexpr double k_gap_round_off = 1e-12;
 // [-] of the largest speed at the contacts of an island: what approaches or slips slower is at rest.
@@ -34,21 +34,6 @@ struct Island {
   double largest_speed = 0.0, rest_speed = 0.0;  // [m/s]
 
   StepContact& at(int i) const { return parts.contacts[static_cast<Index>(i)]; }
-
-  void list_bodies() {
-    parts.island_body.clear();
-    for (const int i : contacts) {
-      for (const int body : {at(i).rows.body_a, at(i).rows.body_b}) {
-        if (body < 0 || parts.local_body[static_cast<Index>(body)] >= 0) continue;
-        parts.local_body[static_cast<Index>(body)] = static_cast<int>(parts.island_body.size());
-        parts.island_body.push_back(body);
-      }
-    }
-  }
-
-  void forget_bodies() {
-    for (const int body : parts.island_body) parts.local_body[static_cast<Index>(body)] = -1;
-  }
 
   // One contact in closed form.
   void solve_one(StepContact& c, const Velocities& from, Velocities& to) {
@@ -382,7 +367,7 @@ struct Island {
       }
       const Created made = created();
       const double wrong = is_elastic ? std::abs(made.energy) : made.energy;
-      if (rubs || wrong <= k_bounce_round_off * made.size || !(bounced > 0.0)) return;
+      if (rubs || wrong <= k_energy_aim * made.size || !(bounced > 0.0)) return;
       const bool is_last = attempt >= k_max_attempts;
       if (is_last && (made.energy <= 0.0 || attempt >= 2 * k_max_attempts)) return;
       double slope = 0.5 * bounced / square;
@@ -461,7 +446,7 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
     }
     return island.outcome;
   }
-  island.list_bodies();
+  list_bodies(parts, contacts);
   const bool bounces =
       std::any_of(contacts.begin(), contacts.end(), [&](int i) { return island.is_bouncing(island.at(i)); });
   if (bounces || !island.land()) island.bounce();
@@ -474,10 +459,11 @@ IslandOutcome step_island(Parts& parts, IslandContacts contacts, double h, const
     c.sticks = c.mode != ContactMode::open && !island.slips(c, parts.next_velocity);
     island.outcome.is_at_work = island.outcome.is_at_work || c.mode != ContactMode::open;
   }
-  Island::Created created = island.created();
-  if (separate(parts, contacts, h, settings, -created.energy)) created = island.created();
+  const Island::Created created = island.created();
   if (created.energy > k_energy_round_off * created.size) island.outcome.created = created.energy;
-  island.forget_bodies();
+  island.outcome.lost = -created.energy;
+  island.outcome.has_moved = true;
+  forget_bodies(parts);
   return island.outcome;
 }
 

@@ -62,6 +62,8 @@ struct IslandOutcome {
   int factorisations = 0;
   bool is_at_work = false;  // some contact was touched
   double created = 0.0;     // [J], above round-off
+  double lost = 0.0;        // [J]
+  bool has_moved = false;   // otherwise than freely, and was not yet separated
 };
 
 // Two parts of which one may go far in the step, against their sizes: looked at along their way.
@@ -69,21 +71,6 @@ struct FastPair {
   Contact nearest;  // at the start of the step
   bool misses = false;
   std::array<Vector3, 2> missing_velocity{};  // of a and b, with which they are known not to meet
-};
-
-// A contact in `separate`.
-struct SeparationRow {
-  struct Side {
-    std::size_t body = 0;
-    Vector3 normal{}, response{};  // row of the normal, and that by the inverse mass
-    double travel = 0.0;           // [m] of the body along the normal
-  };
-  double gap = 0.0;       // [m] after the step, were the bodies not to travel
-  double response = 0.0;  // [1/kg] of the gap to the push
-  double size = 0.0;      // [m] of the bodies
-  double push = 0.0;      // [kg m]
-  std::size_t num_sides = 0;
-  std::array<Side, 2> sides;
 };
 
 struct StepWorkspace::Parts {
@@ -109,10 +96,11 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> next_velocity;
   std::vector<Vector3> force_velocity;  // after the forces and the first impacts: forces work along its mean with v
   std::vector<Vector3> travel;          // x, y, angle
-  std::vector<Vector3> shift;           // what `separate` adds to it; 0 outside
+  std::vector<Vector3> shift;           // what `separate` adds to it
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;
+  std::vector<StepContact> last_contacts;  // of the look before
   std::vector<FastPair> fast_pairs;
   std::vector<StepContact> added;  // of fast pairs
   std::vector<ContactPoint> points;
@@ -121,14 +109,19 @@ struct StepWorkspace::Parts {
   std::vector<int> island_begin;       // islands + 1
   std::vector<int> island_contact;     // indices into contacts
   std::vector<IslandOutcome> outcome;  // of an island, at the index of its first contact
-  IslandSolver solver;
-  std::vector<int> local_body, island_body;
-  std::vector<SeparationRow> separation;  // of one island
-  std::vector<Vector3> way_velocity;      // of the LCP for the way
+  std::vector<IslandOutcome> last_outcome;
+  IslandSolver solver;                       // of impulses
+  IslandSolver separator;                    // of overlaps
+  std::vector<int> local_body, island_body;  // scene -> island, -1 if not of it, and back
+  std::vector<Vector3> way_velocity;         // of the LCP for the way
 };
 
 // The contacts in reach, with what is known of them before anything is solved, in the order of their ids.
 void prepare_contacts(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
+
+// The same once islands were stepped, where bodies may go further than thought at first. Islands whose contacts stay
+// the same keep their motion.
+void look_further(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
 
 // [m] What turning and curved surfaces add to the gap in the step, to second order, where the two bodies move with
 // these velocities; 0 where that says little.
@@ -148,14 +141,18 @@ void step_islands(double step_size, const StepSettings& settings, StepWorkspace:
 
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
 
+// Numbers the dynamic bodies of one island, until the numbers are taken back.
+void list_bodies(StepWorkspace::Parts& parts, IslandContacts island);
+void forget_bodies(StepWorkspace::Parts& parts);
+
 // Velocities and travel of the bodies of one island, impulses and modes of its contacts.
 IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, double step_size,
                           const StepSettings& settings);
 
 // Adds to the travel of the bodies of one island what takes them out of what they would overlap after the step, the
 // least in the metric of their masses. Velocities stay. Bodies are lifted against their forces by no more work than
-// `lost` [J], what the step has lost: the sum creates no energy. False if there is no overlap.
-bool separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, const StepSettings& settings,
+// `lost` [J], what the step has lost: the sum creates no energy.
+void separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, const StepSettings& settings,
               double lost);
 
 // Velocity (u_n, u_t) of the contact where its bodies have the given ones.

@@ -188,17 +188,13 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   validate(settings);
   Parts& parts = workspace.parts();
   predict(scene, h, state, parts);
+  prepare_contacts(scene, h, state, parts);
   for (int look = 1;; ++look) {
-    prepare_contacts(scene, h, state, parts);
     step_islands(h, settings, parts);
     for (int more = 0; more < k_max_looks && add_contacts_on_way(scene, h, parts); ++more)
       step_islands(h, settings, parts);
     if (is_within_reach(parts) || look == k_max_looks) break;
-    for (Index i = 0; i < scene.bodies.size(); ++i) {
-      if (scene.bodies[i].kind != BodyKind::dynamic) continue;
-      parts.next_velocity[i] = parts.force_velocity[i] = parts.free_velocity[i];
-      for (Index j = 0; j < 3; ++j) parts.travel[i][j] = h * parts.middle_velocity[i][j];
-    }
+    look_further(scene, h, state, parts);
   }
   stop_at_impacts(scene, h, parts);
   IslandOutcome worst;
