@@ -174,9 +174,8 @@ TEST(IslandSolver, SolvesTheLcpOfRandomBodies) {
   }
 }
 
-// Towers, pyramids, piles, wedges, jamming rods, and wild ones: all solvable. Of wild ones three are not solved to what
-// the LCP calls 1e-10, which weighs bodies a million apart in mass otherwise: two are off by 5e-10, one says that it
-// is.
+// Towers, pyramids, piles, wedges, jamming rods, and wild ones: all solvable. Two of the wild ones are solved to 1e-11
+// in the measure of the solver, but to 5e-10 in that of the LCP, which weighs bodies a million apart in mass otherwise.
 TEST(IslandSolver, SolvesEveryFamilyOfContactProblems) {
   for (const problems::Family& family : problems::families()) {
     int num_off = 0;
@@ -186,10 +185,11 @@ TEST(IslandSolver, SolvesEveryFamilyOfContactProblems) {
       SCOPED_TRACE(testing::Message() << family.name << " " << i);
       const Solved solved = solve(system);
       const double off = residual(as_lcp(system), as_z(system, solved)).largest();
+      EXPECT_EQ(solved.result.status, LcpStatus::solved);
       EXPECT_LE(off, 1e-9);
-      if (solved.result.status != LcpStatus::solved || off > k_accepted_residual) ++num_off;
+      if (off > k_accepted_residual) ++num_off;
     }
-    EXPECT_LE(num_off, family.name == "wild" ? 3 : 0) << family.name;
+    EXPECT_LE(num_off, family.name == "wild" ? 2 : 0) << family.name;
   }
 }
 
@@ -320,22 +320,13 @@ TEST(IslandSolver, HoldsStacksOfMassesAMillionApart) {
   }
 }
 
-// One of them ends at a residual of 6e-10, and says so.
 TEST(IslandSolver, SolvesRandomBodiesOfMassesAMillionApart) {
   Random random(57);
-  int num_unsolved = 0;
   for (int trial = 0; trial < 400 && !has_failed(); ++trial) {
     const ContactSystem system = random_system(random, 2 + trial % 4, 1 + trial % 12, 0.7, 1e6);
     SCOPED_TRACE(trial);
-    const Solved solved = solve(system);
-    if (solved.result.status == LcpStatus::solved) {
-      expect_solves(system, solved);
-    } else {
-      EXPECT_GT(solved.result.residual, k_accepted_residual);
-      ++num_unsolved;
-    }
+    expect_solves(system, solve(system));
   }
-  EXPECT_LE(num_unsolved, 1);
 }
 
 // Restitution, gaps and conveyors: offsets of any size, with those systems left out that the general solver does not

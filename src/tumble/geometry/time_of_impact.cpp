@@ -59,27 +59,20 @@ double least_advance(Vector2 n, Vector2 r, double angle) {
   return dot(n, turned_left(r)) * angle - 0.5 * angle * angle * std::max(highest, 0.0);
 }
 
-// The least of n . p over the points p of a shape about its position, now and after it has turned, each at least.
-struct Extent {
-  double now = k_infinity, later = k_infinity;
-};
-Extent extent_of(const PlacedPolygon& shape, Vector2 n, double angle) {
-  Extent least;
-  for (const PlacedPolygon::Corner& corner : shape.corners) {
-    const double height = dot(n, corner.vertex) - shape.rounding;
-    least.now = std::min(least.now, height);
-    least.later = std::min(least.later, height + least_advance(n, corner.vertex, angle));
-  }
-  return least;
+// The least of n . p over the points p of a shape about its position, after it has turned by up to `angle`: a bound.
+double least_extent(const PlacedPolygon& shape, Vector2 n, double angle) {
+  double least = k_infinity;
+  for (const PlacedPolygon::Corner& corner : shape.corners)
+    least = std::min(least, dot(n, corner.vertex) + least_advance(n, corner.vertex, angle));
+  return least - shape.rounding;
 }
-Extent extent_of(const PlacedHalfPlane& shape, Vector2 n, double angle) {
-  if (n != -shape.normal || angle != 0.0) return {-k_infinity, -k_infinity};
-  return {-shape.offset, -shape.offset};
+double least_extent(const PlacedHalfPlane& shape, Vector2 n, double angle) {
+  return n == -shape.normal && angle == 0.0 ? -shape.offset : -k_infinity;
 }
-Extent extent_of(const PlacedEllipse&, Vector2, double) { return {-k_infinity, -k_infinity}; }
-Extent extent_of(const PlacedTerrain&, Vector2, double) { return {-k_infinity, -k_infinity}; }
-Extent extent_of(const PlacedShape& shape, Vector2 n, double angle) {
-  return std::visit([&](const auto& s) { return extent_of(s, n, angle); }, shape);
+double least_extent(const PlacedEllipse&, Vector2, double) { return -k_infinity; }
+double least_extent(const PlacedTerrain&, Vector2, double) { return -k_infinity; }
+double least_extent(const PlacedShape& shape, Vector2 n, double angle) {
+  return std::visit([&](const auto& s) { return least_extent(s, n, angle); }, shape);
 }
 
 Vector2 position_of(const PlacedShape& shape) {
@@ -88,32 +81,44 @@ Vector2 position_of(const PlacedShape& shape) {
 
 }  // namespace
 
-// Where the heights of points are bounded by parabolas that bend down, so is their distance: it is least at one of the
-// ends.
-bool stay_apart(const PlacedShape& a, const Vector3& velocity_a, const PlacedShape& b, const Vector3& velocity_b,
-                Vector2 direction, double duration, double distance) {
-  const Extent from_a = extent_of(a, -direction, duration * velocity_a[2]);
-  const Extent from_b = extent_of(b, direction, duration * velocity_b[2]);
+// The heights of points along a direction are bounded by parabolas that bend down, and so is their distance: it lies
+// above its chords.
+double time_apart(const PlacedShape& a, const Vector3& velocity_a, const PlacedShape& b, const Vector3& velocity_b,
+                  Vector2 direction, double duration, double distance) {
+  constexpr int max_chords = 4;
   const double offset = dot(direction, position_of(b) - position_of(a));
-  const Vector2 velocity{velocity_b[0] - velocity_a[0], velocity_b[1] - velocity_a[1]};
-  const double way = duration * dot(direction, velocity);
-  return offset + from_a.now + from_b.now > distance && offset + way + from_a.later + from_b.later > distance;
+  const double speed = dot(direction, Vector2{velocity_b[0] - velocity_a[0], velocity_b[1] - velocity_a[1]});
+  const auto gap_after = [&](double time) {
+    return offset + time * speed + least_extent(a, -direction, time * velocity_a[2]) +
+           least_extent(b, direction, time * velocity_b[2]);
+  };
+  double apart = 0.0, gap = gap_after(0.0), late = duration, late_gap = gap_after(duration);
+  if (!(gap > distance)) return 0.0;
+  if (late_gap > distance) return duration;
+  if (!(late_gap > -k_infinity)) return 0.0;
+  for (int chord = 0; chord < max_chords; ++chord) {
+    const double step = (late - apart) * ((gap - distance) / (gap - late_gap));
+    apart += step;
+    gap = gap_after(apart);
+    if (!(gap > distance)) break;
+  }
+  return apart;
 }
 
 std::optional<Impact> time_of_impact(const Shape& a, const Pose& pose_a, const Vector3& velocity_a, const Shape& b,
                                      const Pose& pose_b, const Vector3& velocity_b, double duration, double distance) {
   MovedShape moved_a(a, pose_a), moved_b(b, pose_b);
   ContactPoints contacts;
-  return time_of_impact(moved_a, pose_a, velocity_a, moved_b, pose_b, velocity_b, duration, distance, contacts);
+  return time_of_impact(moved_a, pose_a, velocity_a, moved_b, pose_b, velocity_b, 0.0, duration, distance, contacts);
 }
 
 std::optional<Impact> time_of_impact(MovedShape& a, const Pose& pose_a, const Vector3& velocity_a, MovedShape& b,
-                                     const Pose& pose_b, const Vector3& velocity_b, double duration, double distance,
-                                     ContactPoints& contacts) {
+                                     const Pose& pose_b, const Vector3& velocity_b, double earliest, double duration,
+                                     double distance, ContactPoints& contacts) {
   Mover mover_a{a, pose_a, velocity_a}, mover_b{b, pose_b, velocity_b};
   const double approach = fastest_approach(mover_a, mover_b, duration);
   const double size = std::min(mover_a.radius, mover_b.radius);
-  double time = 0.0, reach = k_infinity;
+  double time = earliest, reach = k_infinity;
   for (int step = 0;; ++step) {
     mover_a.move_to(time);
     mover_b.move_to(time);
@@ -125,10 +130,18 @@ std::optional<Impact> time_of_impact(MovedShape& a, const Pose& pose_a, const Ve
     const double gap = closest == contacts.end() ? 0.5 * size : closest->gap;
     if (closest != contacts.end() && (gap <= distance || step == k_most_advances)) return Impact{time, *closest};
     if (!(approach > 0.0) || time >= duration || step >= k_most_advances) return std::nullopt;
-    const double way = std::max(gap - 0.5 * distance, 0.5 * distance);
-    // The shapes part no faster than they approach each other: there is a contact this near, and no need for others.
-    reach = closest == contacts.end() ? k_infinity : (gap + way) * (1.0 + k_rounding);
-    time = std::min(duration, time + way / approach);
+    double advance = std::max(gap - 0.5 * distance, 0.5 * distance) / approach;
+    reach = k_infinity;
+    if (closest != contacts.end()) {
+      const double left = duration - time;
+      const double apart =
+          time_apart(a.placed(), velocity_a, b.placed(), velocity_b, closest->normal, left, 0.5 * distance);
+      if (apart >= left) return std::nullopt;
+      advance = std::max(advance, apart);
+      // The shapes part no faster than they approach each other: there is a contact this near, and no need for others.
+      reach = (gap + advance * approach) * (1.0 + k_rounding);
+    }
+    time = std::min(duration, time + advance);
   }
 }
 

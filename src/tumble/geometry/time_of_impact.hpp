@@ -27,14 +27,16 @@ std::optional<Impact> time_of_impact(const Shape& a, const Pose& pose_a, const V
 
 constexpr int k_most_advances = 1000;
 
-// The same for shapes at hand, which are left somewhere on their way, with scratch memory.
+// The same for shapes at hand, which are left somewhere on their way, with scratch memory. They are known not to be
+// within the distance before `earliest` [s].
 std::optional<Impact> time_of_impact(MovedShape& a, const Pose& pose_a, const Vector3& velocity_a, MovedShape& b,
-                                     const Pose& pose_b, const Vector3& velocity_b, double duration, double distance,
-                                     std::vector<ContactPoint>& scratch);
+                                     const Pose& pose_b, const Vector3& velocity_b, double earliest, double duration,
+                                     double distance, std::vector<ContactPoint>& scratch);
 
-// True if two shapes, moving so from where they are placed, stay more than `distance` [m] apart along a direction from
-// a to b, of length 1, for a duration: a quick look, to second order in their turning. False if it cannot tell.
-bool stay_apart(const PlacedShape& a, const Vector3& velocity_a, const PlacedShape& b, const Vector3& velocity_b,
-                Vector2 direction, double duration, double distance);
+// How long [s] two shapes, moving so from where they are placed, stay at least `distance` [m] apart along a direction
+// from a to b, of length 1: a quick bound, of second order in their turning, no more than `duration`; 0 where it cannot
+// tell.
+double time_apart(const PlacedShape& a, const Vector3& velocity_a, const PlacedShape& b, const Vector3& velocity_b,
+                  Vector2 direction, double duration, double distance);
 
 }  // namespace tumble

@@ -159,12 +159,13 @@ std::optional<Impact> find_impact(double h, Parts& parts, FastPair& pair, const 
   const std::array<Vector3, 2> velocities = {velocity[a], velocity[b]};
   if (pair.misses && velocities == pair.missing_velocity) return std::nullopt;
   const double distance = k_touching * size_of_pair(parts, c).radius;
+  const double apart = time_apart(parts.finder.shape(c.body_a, c.part_a), velocity[a],
+                                  parts.finder.shape(c.body_b, c.part_b), velocity[b], c.normal, h, 0.5 * distance);
   std::optional<Impact> impact;
-  if (!stay_apart(parts.finder.shape(c.body_a, c.part_a), velocity[a], parts.finder.shape(c.body_b, c.part_b),
-                  velocity[b], c.normal, h, 2.0 * distance)) {
-    impact =
-        time_of_impact(parts.finder.moved(c.body_a, c.part_a), parts.poses[a], velocity[a],
-                       parts.finder.moved(c.body_b, c.part_b), parts.poses[b], velocity[b], h, distance, parts.points);
+  if (apart < h) {
+    impact = time_of_impact(parts.finder.moved(c.body_a, c.part_a), parts.poses[a], velocity[a],
+                            parts.finder.moved(c.body_b, c.part_b), parts.poses[b], velocity[b], apart, h, distance,
+                            parts.points);
   }
   pair.misses = !impact;
   pair.missing_velocity = velocities;
