@@ -44,22 +44,9 @@ void expect_laws(const Scene& scene, double step_size, double duration, const st
     ADD_FAILURE() << what << ": " << fault;
 }
 
-// What of the simulator is known not to be right yet, and in which scenes it shows.
-struct Defect {
-  const char* what;
-  std::vector<std::string> scenes;
-};
-const Defect k_records = {"places of contacts that fast bodies meet at are those of the meeting",
-                          {"billiard", "funnel"}};
-
-bool shows(const Defect& defect, const std::string& scene) {
-  return std::find(defect.scenes.begin(), defect.scenes.end(), scene) != defect.scenes.end();
-}
-
 class NamedScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(NamedScene, KeepsTheLaws) {
-  if (shows(k_records, GetParam())) GTEST_SKIP() << k_records.what;
   const Scene scene = named_scene(GetParam());
   ASSERT_NO_THROW(expect_laws(scene, scene.step_size, scene.duration, GetParam()));
 }

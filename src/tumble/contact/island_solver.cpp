@@ -13,7 +13,7 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_accepted_residual = 1e-10;
-constexpr double k_rest_rounding = 1e-15;  // [-] what is left is round-off: nothing to improve
+constexpr double k_rest_residual = 1e-14;  // what is left is round-off: nothing to improve
 constexpr double k_path_ridge = 1e-7;      // [-]
 constexpr int k_max_path_pieces = 150;
 constexpr int k_first_rounds = 8;   // of Newton's method: where it gets there, it does so in a few
@@ -144,7 +144,7 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
     parts_->best_modes = search.modes;
     parts_->best_impulses = search.impulses;
     parts_->best_residual = search.residual();
-  } else if (search.rounding() > k_rest_rounding && !parts_->start_from(impulses)) {
+  } else if (parts_->best_residual > k_rest_residual && !parts_->start_from(impulses)) {
     search.modes = modes;
     search.impulses = impulses;
     search.sweep(k_first_sweeps);

@@ -124,11 +124,9 @@ double BodyModes::residual() {
   find_velocities();
   find_contact_velocities();
   double largest = 0.0;
-  rounding_ = 0.0;
   const auto add = [&](double violation, double size) {
     if (!(size > 0.0)) return;
     largest = std::max(largest, violation / (speed_ + k_rounding_share * size));
-    rounding_ = std::max(rounding_, violation / size);
   };
   for (Index i = 0; i < modes.size(); ++i) {
     const double f_n = impulses[2 * i], f_t = impulses[2 * i + 1];

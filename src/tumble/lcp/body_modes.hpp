@@ -54,9 +54,6 @@ class BodyModes {
   // large impulses cancel, their rounding is forgiven, but no more.
   double residual();
 
-  // The largest of these violations in the last `residual`, relative to the sizes of their terms alone.
-  double rounding() const { return rounding_; }
-
   int factorisations() const { return factorisations_; }  // since `load`
 
  private:
@@ -95,8 +92,7 @@ class BodyModes {
   int factorisations_ = 0;
   double ridge_ = 0.0;    // [-] of the diagonal of A
   bool is_near_ = false;  // in `run_near`
-  double rounding_ = 0.0;
-  double speed_ = 0.0;  // largest at a contact before the impulses [m/s]
+  double speed_ = 0.0;    // largest at a contact before the impulses [m/s]
   std::vector<Vector3> mass_;
   std::vector<Block> response_;            // A of each contact
   std::vector<Vector3> v_, terms_, step_;  // terms_: the sizes of what v_ is a sum of

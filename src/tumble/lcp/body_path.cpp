@@ -38,7 +38,7 @@ void BodyModes::respond(const std::vector<Pair>& offsets, Response& response) {
   response.f.assign(2 * modes.size(), 0.0);
   response.u.resize(modes.size());
   for (Index i = 0; i < modes.size(); ++i) {
-    auto [u_n, u_t] = offsets[i];
+    double u_n = offsets[i][0], u_t = offsets[i][1];
     for_bodies(system_->contacts[i], [&](Index b, const Vector3& normal, const Vector3& tangent) {
       u_n += dot(normal, step_[b]);
       u_t += dot(tangent, step_[b]);

@@ -5,9 +5,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <Eigen/SparseLU>
-
 #include "tumble/lcp/dense_lu.hpp"
+#include "tumble/lcp/sparse_lu.hpp"
 
 namespace tumble {
 
@@ -21,7 +20,7 @@ class CoreLu {
     k_ = k;
     is_sparse_ = std::is_same_v<Real, double> && k >= smallest_sparse && smallest_share * num_entries < k * k;
     if (is_sparse_) {
-      triplets_.clear();
+      sparse_.start();
     } else {
       std::vector<Real>& entries = dense_.start(k);
       std::fill(entries.begin(), entries.end(), Real(0));
@@ -32,7 +31,7 @@ class CoreLu {
   void add(std::size_t row, std::size_t column, const Real& value) {
     if constexpr (std::is_same_v<Real, double>) {
       if (is_sparse_) {
-        triplets_.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+        sparse_.add(row, column, value);
         return;
       }
     }
@@ -41,20 +40,14 @@ class CoreLu {
 
   // False if the matrix is singular.
   bool factor() {
-    if (!is_sparse_) return dense_.factor();
-    const auto k = static_cast<Eigen::Index>(k_);
-    matrix_.resize(k, k);
-    matrix_.setFromTriplets(triplets_.begin(), triplets_.end());
-    sparse_.compute(matrix_);
-    return sparse_.info() == Eigen::Success;
+    return is_sparse_ ? sparse_.factor(k_) : dense_.factor();
   }
 
   // x with A x = b; b and x have k entries and may not overlap.
   void solve(const Real* b, Real* x) {
     if constexpr (std::is_same_v<Real, double>) {
       if (is_sparse_) {
-        const auto k = static_cast<Eigen::Index>(k_);
-        Eigen::Map<Eigen::VectorXd>(x, k) = sparse_.solve(Eigen::Map<const Eigen::VectorXd>(b, k));
+        sparse_.solve(b, x);
         return;
       }
     }
@@ -66,9 +59,7 @@ class CoreLu {
   bool is_sparse_ = false;
   DenseLu<Real> dense_;
   std::vector<Real>* entries_ = nullptr;
-  std::vector<Eigen::Triplet<double>> triplets_;
-  Eigen::SparseMatrix<double> matrix_;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> sparse_;
+  SparseLu sparse_;
 };
 
 }  // namespace tumble

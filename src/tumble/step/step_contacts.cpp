@@ -226,15 +226,14 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair&
   const Contact& pair = fast.nearest;
   const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
   find_contacts_at(parts, pair, velocity, impact->time, parts.reach[a] + parts.reach[b]);
-  const auto position_of = [&](Index body) {
-    return parts.poses[body].position + impact->time * Vector2{velocity[body][0], velocity[body][1]};
-  };
+  const auto way_of = [&](Index body) { return impact->time * Vector2{velocity[body][0], velocity[body][1]}; };
   const Index first = contacts.size();
   for (const ContactPoint& point : parts.points) {
     StepContact& c = contacts.emplace_back();
     c.contact = {point, pair.body_a, pair.body_b, pair.part_a, pair.part_b};
     c.is_ahead = true;
-    set_geometry(scene, parts, c, position_round_off(parts, pair), position_of(a), position_of(b));
+    set_geometry(scene, parts, c, position_round_off(parts, pair), parts.poses[a].position + way_of(a),
+                 parts.poses[b].position + way_of(b));
     if (contacts.size() > first + 1) share_friction_line(contacts.end()[-2], c);
   }
   for (Index i = first; i < contacts.size(); ++i) {
@@ -242,6 +241,10 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair&
     add_offsets(scene, parts, c);
     c.gap_at_start = c.contact.gap - impact->time * velocity_at(c.rows, velocity)[0];
     c.gap = std::max(c.gap_at_start, 0.0);
+    // Reported where the bodies are at the start of the step, turned as they will be.
+    c.contact.gap = c.gap_at_start;
+    for (Vector2* place : {&c.places.on_a, &c.contact.point_a}) *place = *place - way_of(a);
+    for (Vector2* place : {&c.places.on_b, &c.contact.point_b}) *place = *place - way_of(b);
   }
 }
 

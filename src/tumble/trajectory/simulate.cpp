@@ -86,7 +86,8 @@ void Simulation::advance() {
   state_.time = static_cast<double>(step_) * trajectory_.step_size;
   trajectory_.num_steps = step_;
   trajectory_.residual = std::max(trajectory_.residual, report_.residual);
-  if (status != LcpStatus::solved && report_.residual <= k_largest_residual_to_go_on) {
+  const bool is_close = status == LcpStatus::iteration_limit || status == LcpStatus::numerical;
+  if (is_close && report_.residual <= k_largest_residual_to_go_on) {
     if (trajectory_.num_inexact_steps == 0) trajectory_.first_inexact = state_.time;
     ++trajectory_.num_inexact_steps;
   } else {

@@ -53,8 +53,9 @@ class Simulation {
   EnergyLedger since_sample_;
 };
 
-// The whole run. Where a step could not be solved, it goes on if the residual is at most this, for no law of contact is
-// then off by more than that share of the speeds; else it ends with the status of that step.
+// The whole run. Where the solver came to no end at a step, it goes on if the residual is at most this, for no law of
+// contact is then off by more than that share of the speeds. Else, and where a step has no solution, it ends with the
+// status of that step.
 inline constexpr double k_largest_residual_to_go_on = 1e-3;
 Trajectory simulate(const Scene& scene, const SimulateSettings& settings = {});
 
