@@ -15,14 +15,16 @@ namespace tumble::physics {
 namespace {
 
 // The first broken law of each kind, with the time, and the largest overlap from a time on. Steps that were not solved
-// say so themselves.
+// to round-off say so themselves: large heaps have some.
 std::map<std::string, std::string> first_faults(const Scene& scene, double step_size, double duration, double* depth,
                                                 double depth_from = 0.0) {
   std::map<std::string, std::string> faults;
   Simulation simulation = start(scene, step_size, duration);
   State before = simulation.state();
+  std::int64_t num_rough = 0;
   run_until(simulation, [&](const State& after, const StepReport& report) {
-    if (report.status != LcpStatus::solved) {
+    if (report.residual > 1e-11) {
+      ++num_rough;
       before = after;
       return false;
     }
@@ -36,6 +38,7 @@ std::map<std::string, std::string> first_faults(const Scene& scene, double step_
     before = after;
     return false;
   });
+  EXPECT_LE(num_rough, simulation.num_steps() / 5);
   return faults;
 }
 

@@ -24,6 +24,8 @@ constexpr int k_max_proximal_steps = 30;
 constexpr int k_near_rounds = 6, k_max_near_pieces = 50;  // of Newton's method near a point, and of the path to it
 constexpr int k_more_sweeps = 10;
 constexpr double k_close_residual = 1e-5;   // then the modes may be those of rigid contacts
+constexpr Index k_max_exact_contacts = 50;  // of the fast solver: as fast as sweeps, and at rest faster
+constexpr double k_fast_change = 2e-3;      // of the speeds in a sweep: the next ones are left to the next step
 constexpr Index k_max_dense_contacts = 40;  // above, the dense LCP takes longer than a step is worth
 
 }  // namespace
@@ -71,8 +73,11 @@ struct IslandSolver::Parts {
     start.keep(modes);
     if (run(k_last_rounds)) return true;
     start.give_back(modes);
-    return best_residual <= k_accepted_residual;
+    return !has_dense() && best_residual <= k_accepted_residual;
   }
+
+  // Small islands are solved to round-off, if need be by the general solver.
+  bool has_dense() const { return modes.modes.size() <= k_max_dense_contacts; }
 
   // From a solution of a problem like this one, that of the last step or with fewer contacts.
   bool follow() {
@@ -121,7 +126,11 @@ struct IslandSolver::Parts {
       const double f_t = modes.impulses[2 * i + 1];
       modes.modes[i] = contact_mode(result.z[i], result.z[3 * m + i], f_t != 0.0 ? -f_t : 1.0);
     }
-    return offer() ? LcpStatus::solved : result.status;
+    if (result.status != LcpStatus::solved) return offer() ? LcpStatus::solved : result.status;
+    best_residual = modes.residual();
+    best_modes = modes.modes;
+    best_impulses = modes.impulses;
+    return LcpStatus::solved;
   }
 };
 
@@ -139,18 +148,24 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
   parts_->best_modes = modes;
   parts_->best_impulses = impulses;
   LcpStatus status = LcpStatus::solved;
-  if (settings.solver == ContactSolver::fast) {
-    search.sweep(settings.num_sweeps);
-    parts_->best_modes = search.modes;
-    parts_->best_impulses = search.impulses;
-    parts_->best_residual = search.residual();
+  if (settings.solver == ContactSolver::fast && system.contacts.size() > k_max_exact_contacts) {
+    if (parts_->best_residual > k_rest_residual) {
+      for (int sweeps = 0; sweeps < settings.num_sweeps; sweeps += 2) {
+        if (search.sweep(std::min(2, settings.num_sweeps - sweeps)) <= k_fast_change) break;
+      }
+      parts_->best_modes = search.modes;
+      parts_->best_impulses = search.impulses;
+      parts_->best_residual = search.residual();
+    }
   } else if (parts_->best_residual > k_rest_residual && !parts_->start_from(impulses)) {
     search.modes = modes;
     search.impulses = impulses;
     search.sweep(k_first_sweeps);
     if (!parts_->finish() && !parts_->approach()) {
-      status = LcpStatus::iteration_limit;
-      if (system.contacts.size() <= k_max_dense_contacts) status = parts_->search_dense(system);
+      if (parts_->has_dense())
+        status = parts_->search_dense(system);
+      else if (parts_->best_residual > k_accepted_residual)
+        status = LcpStatus::iteration_limit;
     }
   }
   search.impulses = parts_->best_impulses;

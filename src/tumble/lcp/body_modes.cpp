@@ -144,7 +144,8 @@ double BodyModes::sweep(int num_sweeps) {
   double change = 0.0;
   for (int sweep = 0; sweep < num_sweeps; ++sweep) {
     change = 0.0;
-    for (Index i = 0; i < modes.size(); ++i) {
+    for (Index k = 0; k < modes.size(); ++k) {
+      const Index i = sweep % 2 == 0 ? k : modes.size() - 1 - k;  // loads go down a stack one way, and up the other
       const BodyContact& c = system_->contacts[i];
       const Block& A = response_[i];
       double& f_n = impulses[2 * i];

@@ -27,7 +27,7 @@ void find_shifts(StepWorkspace::Parts& parts, IslandContacts contacts, double h,
     for_bodies(c.rows, [&](Index b, const Vector3& n, const Vector3&) {
       for (Index j = 0; j < 3; ++j) response += n[j] * n[j] * parts.inverse_mass[b][j];
     });
-    const double push = -gap_after(parts, c, h) / response;
+    const double push = -(gap_after(parts, c, h) + c.slop) / response;
     for_bodies(c.rows, [&](Index b, const Vector3& n, const Vector3&) {
       for (Index j = 0; j < 3; ++j) parts.shift[b][j] = parts.inverse_mass[b][j] * n[j] * push;
     });
@@ -47,7 +47,7 @@ void find_shifts(StepWorkspace::Parts& parts, IslandContacts contacts, double h,
     BodyContact& rows = solver.system.contacts.emplace_back(at(i).rows);
     rows.body_a = local(rows.body_a);
     rows.body_b = local(rows.body_b);
-    rows.offset = gap_after(parts, at(i), h);
+    rows.offset = gap_after(parts, at(i), h) + at(i).slop;
     rows.tangent_offset = 0.0;
     rows.friction = 0.0;
     solver.modes.push_back(rows.offset < 0.0 ? ContactMode::slip_right : ContactMode::open);
@@ -74,12 +74,19 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
   };
   for (const int i : contacts) {
     StepContact& c = at(i);
-    if (!c.is_ahead) c.way_bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
+    if (!c.is_ahead) {
+      c.way_bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
+      continue;
+    }
+    // Bodies that meet on their way may turn by much after it: their shapes are looked at where they end.
+    c.way_bend = 0.0;
+    if (c.mode != ContactMode::open)
+      c.way_bend = std::min(0.0, least_gap_at_end(h, parts, c.contact) - gap_after(parts, c, h));
   }
   const bool has_overlap = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
     double size = 0.0;
     for_bodies(at(i).rows, [&](Index b, const Vector3&, const Vector3&) { size = std::max(size, parts.radius[b]); });
-    return gap_after(parts, at(i), h) < -k_round_off * size;
+    return gap_after(parts, at(i), h) < -std::max(k_round_off * size, at(i).slop);
   });
   if (!has_overlap) return;
   list_bodies(parts, contacts);

@@ -117,7 +117,8 @@ bool is_fast(const Parts& parts, std::span<const Contact> pair) {
 void set_geometry(const Scene& scene, const Parts& parts, StepContact& c, double round_off, Vector2 centre_a,
                   Vector2 centre_b) {
   c.law = &law_of(scene, parts, c.contact);
-  c.gap = c.contact.gap > round_off ? c.contact.gap : 0.0;
+  c.slop = parts.slop > 0.0 ? parts.slop * size_of_pair(parts, c.contact).radius : 0.0;
+  c.gap = c.contact.gap > std::max(round_off, c.slop) ? c.contact.gap : 0.0;
   c.tangent = turned_right(c.contact.normal);
   c.places = contact_places(c.contact, c.gap > 0.0);
   c.rows = contact_rows(c.contact, c.places, centre_a, centre_b);
@@ -248,22 +249,20 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair&
   }
 }
 
-// Bodies that turn fast run into each other although the places that touched first are held apart.
-bool is_deep_at_end(double h, Parts& parts, const Contact& pair) {
-  constexpr double deep = 0.01;  // [-] of the radius
-  find_contacts_at(parts, pair, parts.way_velocity, h, 0.0);
-  const double depth = deep * size_of_pair(parts, pair).radius;
-  return std::any_of(parts.points.begin(), parts.points.end(), [&](const auto& point) { return point.gap < -depth; });
-}
-
 // The velocities that take the two bodies where they were found to go.
-void set_way_velocity(const Scene& scene, double h, Parts& parts, const Contact& pair) {
+void set_way_velocity(double h, Parts& parts, const Contact& pair) {
   for (const int body : {pair.body_a, pair.body_b}) {
     const auto b = static_cast<Index>(body);
     parts.way_velocity[b] = parts.velocity[b];
-    if (!is_dynamic(scene, body)) continue;
+    if (!(parts.inverse_mass[b][0] > 0.0)) continue;
     for (Index j = 0; j < 3; ++j) parts.way_velocity[b][j] = parts.travel[b][j] / h;
   }
+}
+
+// Bodies that turn fast run into each other although the places that touched first are held apart.
+bool is_deep_at_end(double h, Parts& parts, const Contact& pair) {
+  constexpr double deep = 0.01;  // [-] of the radius
+  return least_gap_at_end(h, parts, pair) < -deep * size_of_pair(parts, pair).radius;
 }
 
 // The contacts are in the order of their ids.
@@ -278,6 +277,14 @@ bool has_listed(const Parts& parts, const Contact& pair) {
 }
 
 }  // namespace
+
+double least_gap_at_end(double h, Parts& parts, const Contact& pair) {
+  set_way_velocity(h, parts, pair);
+  find_contacts_at(parts, pair, parts.way_velocity, h, 0.0);
+  double least = HUGE_VAL;
+  for (const ContactPoint& point : parts.points) least = std::min(least, point.gap);
+  return least;
+}
 
 // Two round surfaces, the more so two corners, turn their normal as they pass: past half their distance from centre to
 // centre the first two derivatives of the gap no longer tell what it will be.
@@ -331,7 +338,7 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
   added.clear();
   for (FastPair& pair : parts.fast_pairs) {
     if (has_listed(parts, pair.nearest)) continue;
-    set_way_velocity(scene, h, parts, pair.nearest);
+    set_way_velocity(h, parts, pair.nearest);
     append_contacts_ahead(scene, h, parts, pair, parts.way_velocity, added);
   }
   if (added.empty()) return false;
@@ -354,7 +361,7 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
 void stop_at_impacts(const Scene& scene, double h, Parts& parts) {
   for (FastPair& pair : parts.fast_pairs) {
     const Contact& c = pair.nearest;
-    set_way_velocity(scene, h, parts, c);
+    set_way_velocity(h, parts, c);
     if (has_listed(parts, c) && !is_deep_at_end(h, parts, c)) continue;
     const auto impact = find_impact(h, parts, pair, parts.way_velocity);
     if (!impact) continue;

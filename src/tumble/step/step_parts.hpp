@@ -30,6 +30,7 @@ struct StepContact {
   double bend = 0.0;                   // [m] what turning and curved surfaces add to it in the step: h^2 / 2 times
                                        // `gap_curvature`
   double gap_at_start = 0.0;           // [m] < 0: overlap
+  double slop = 0.0;                   // [m] gaps and overlaps below are left alone
   bool is_ahead = false;               // of fast bodies: where they will meet, not where they are closest now
   bool was_closed = false;             // in the last step, and did not bounce
   bool has_stuck = false;              // in the last step: static friction may hold it
@@ -85,6 +86,7 @@ struct StepWorkspace::Parts {
 
   std::vector<std::vector<ShapeSize>> sizes;  // per body, per part
 
+  double slop = 0.0;  // [-] of the smaller radius of two shapes
   // Of a step, per body.
   std::vector<Pose> poses;
   std::vector<double> reach;             // [m]
@@ -126,6 +128,9 @@ void look_further(const Scene& scene, double step_size, const State& state, Step
 // [m] What turning and curved surfaces add to the gap in the step, to second order, where the two bodies move with
 // these velocities; 0 where that says little.
 double bend_of(const Contact& contact, const Motion& a, const Motion& b, double step_size);
+
+// [m] Of two parts where their bodies end with the travel found: below 0 where they overlap, else infinite.
+double least_gap_at_end(double step_size, StepWorkspace::Parts& parts, const Contact& pair);
 
 // Lists contacts that the motion found would overrun. False if there are none.
 bool list_overrun(double step_size, StepWorkspace::Parts& parts);
