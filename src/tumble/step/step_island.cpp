@@ -39,28 +39,21 @@ struct Island {
   void solve_one(StepContact& c, const Velocities& from, Velocities& to) {
     const auto [u_n, u_t] = velocity_at(c.rows, from);
     OneContact problem{0.0, 0.0, 0.0, u_n + c.offset, u_t, c.friction};
-    const auto add_response = [&](int body, const Vector3& normal, const Vector3& tangent) {
-      if (body < 0) return;
-      const Vector3& w = parts.inverse_mass[static_cast<Index>(body)];
+    for_bodies(c.rows, [&](Index b, const Vector3& normal, const Vector3& tangent) {
+      const Vector3& w = parts.inverse_mass[b];
       problem.A_nn += normal[0] * normal[0] * w[0] + normal[1] * normal[1] * w[1] + normal[2] * normal[2] * w[2];
       problem.A_nt += normal[0] * tangent[0] * w[0] + normal[1] * tangent[1] * w[1] + normal[2] * tangent[2] * w[2];
       problem.A_tt += tangent[0] * tangent[0] * w[0] + tangent[1] * tangent[1] * w[1] + tangent[2] * tangent[2] * w[2];
-    };
-    add_response(c.rows.body_a, c.rows.normal_a, c.rows.tangent_a);
-    add_response(c.rows.body_b, c.rows.normal_b, c.rows.tangent_b);
+    });
     const OneContactSolution solution = solve_one_contact(problem);
     c.impulse = {solution.f_n, solution.f_t};
     c.mode = solution.mode;
-    const auto push = [&](int body, const Vector3& normal, const Vector3& tangent) {
-      if (body < 0) return;
-      const auto b = static_cast<Index>(body);
+    for_bodies(c.rows, [&](Index b, const Vector3& normal, const Vector3& tangent) {
       const Vector3& w = parts.inverse_mass[b];
       for (Index j = 0; j < 3; ++j) {
         to[b][j] = from[b][j] + w[j] * (normal[j] * solution.f_n + tangent[j] * solution.f_t);
       }
-    };
-    push(c.rows.body_a, c.rows.normal_a, c.rows.tangent_a);
-    push(c.rows.body_b, c.rows.normal_b, c.rows.tangent_b);
+    });
     note(solution.status, solution.residual, 0);
   }
 
@@ -227,13 +220,9 @@ struct Island {
   // The speed [m/s] that the forces of the step alone can bring about at a contact.
   double load_speed(const StepContact& c) const {
     double sum = 0.0;
-    const auto add = [&](int body, const Vector3& normal) {
-      if (body < 0) return;
-      const auto b = static_cast<Index>(body);
+    for_bodies(c.rows, [&](Index b, const Vector3& normal, const Vector3&) {
       for (Index j = 0; j < 3; ++j) sum += h * std::abs(normal[j] * parts.inverse_mass[b][j] * parts.force[b][j]);
-    };
-    add(c.rows.body_a, c.rows.normal_a);
-    add(c.rows.body_b, c.rows.normal_b);
+    });
     return sum;
   }
 
@@ -259,16 +248,13 @@ struct Island {
   // The larger of the contact's A_nn and A_tt.
   double response_of(const StepContact& c) const {
     double nn = 0.0, tt = 0.0;
-    const auto add = [&](int body, const Vector3& normal, const Vector3& tangent) {
-      if (body < 0) return;
-      const Vector3& w = parts.inverse_mass[static_cast<Index>(body)];
+    for_bodies(c.rows, [&](Index b, const Vector3& normal, const Vector3& tangent) {
+      const Vector3& w = parts.inverse_mass[b];
       for (Index j = 0; j < 3; ++j) {
         nn += normal[j] * normal[j] * w[j];
         tt += tangent[j] * tangent[j] * w[j];
       }
-    };
-    add(c.rows.body_a, c.rows.normal_a, c.rows.tangent_a);
-    add(c.rows.body_b, c.rows.normal_b, c.rows.tangent_b);
+    });
     return std::max(nn, tt);
   }
 
