@@ -1,4 +1,4 @@
-// The path of `BodyModes::follow_near`. See body_modes.hpp and docs/theory/lcp_contacts.md.
+// The path of `BodyModes::follow_near`. See body_modes.hpp and docs/theory/step.md.
 #include <algorithm>
 #include <cmath>
 
