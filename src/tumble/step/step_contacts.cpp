@@ -260,8 +260,12 @@ void set_way_velocity(double h, Parts& parts, const Contact& pair) {
 }
 
 // Bodies that turn fast run into each other although the places that touched first are held apart.
-bool is_deep_at_end(double h, Parts& parts, const Contact& pair) {
-  constexpr double deep = 0.01;  // [-] of the radius
+bool may_end_inside(double h, Parts& parts, const Contact& pair) {
+  constexpr double deep = 0.01;   // [-] of the radius
+  constexpr double large = 0.25;  // [rad] after such turns they may also end on the other side of each other
+  for (const int body : {pair.body_a, pair.body_b}) {
+    if (std::abs(parts.travel[static_cast<Index>(body)][2]) > large) return true;
+  }
   return least_gap_at_end(h, parts, pair) < -deep * size_of_pair(parts, pair).radius;
 }
 
@@ -362,7 +366,7 @@ void stop_at_impacts(const Scene& scene, double h, Parts& parts) {
   for (FastPair& pair : parts.fast_pairs) {
     const Contact& c = pair.nearest;
     set_way_velocity(h, parts, c);
-    if (has_listed(parts, c) && !is_deep_at_end(h, parts, c)) continue;
+    if (has_listed(parts, c) && !may_end_inside(h, parts, c)) continue;
     const auto impact = find_impact(h, parts, pair, parts.way_velocity);
     if (!impact) continue;
     for (const int body : {c.body_a, c.body_b}) {
