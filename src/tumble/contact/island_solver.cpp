@@ -14,14 +14,14 @@ using Index = std::size_t;
 
 constexpr double k_accepted_residual = 1e-10;
 constexpr double k_rest_residual = 1e-14;  // what is left is round-off: nothing to improve
-constexpr double k_path_ridge = 1e-7;      // [-]
+constexpr double k_path_ridge = 1e-6;      // [-]
 constexpr int k_max_path_pieces = 150;
 constexpr int k_first_rounds = 8;   // of Newton's method: where it gets there, it does so in a few
 constexpr int k_last_rounds = 2;    // the same, near the solution
 constexpr int k_first_sweeps = 20;  // from there on, sweeps no longer choose the modes best
 constexpr double k_first_ridge = 1e-3, k_last_ridge = 1e-9;  // [-]
 constexpr int k_max_proximal_steps = 30;
-constexpr int k_near_rounds = 6, k_max_near_pieces = 50;  // of Newton's method near a point, and of the path to it
+constexpr int k_near_rounds = 3, k_max_near_pieces = 50;  // of Newton's method near a point, and of the path to it
 constexpr int k_more_sweeps = 10;
 constexpr double k_close_residual = 1e-5;   // then the modes may be those of rigid contacts
 constexpr Index k_max_exact_contacts = 50;  // of the fast solver: as fast as sweeps, and at rest faster
@@ -82,7 +82,8 @@ struct IslandSolver::Parts {
   // From a solution of a problem like this one, that of the last step or with fewer contacts.
   bool follow() {
     if (!modes.follow_near(k_path_ridge, k_max_path_pieces)) return false;
-    return finish();
+    if (finish()) return true;
+    return residual <= k_close_residual && approach(k_path_ridge);
   }
 
   bool start_from(const std::vector<double>& impulses) {
@@ -97,8 +98,7 @@ struct IslandSolver::Parts {
   // The method of proximal points [Rockafellar 1976]: contacts that give way when their impulses change have modes that
   // are easy to find, and with each point they come to the rigid ones closer. They give way less and less, as far as
   // the modes can be found.
-  bool approach() {
-    double ridge = k_first_ridge;
+  bool approach(double ridge) {
     for (int step = 0; step < k_max_proximal_steps; ++step) {
       start.keep(modes);
       if (!modes.run_near(ridge, k_near_rounds) &&
@@ -161,7 +161,7 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
     search.modes = modes;
     search.impulses = impulses;
     search.sweep(k_first_sweeps);
-    if (!parts_->finish() && !parts_->approach()) {
+    if (!parts_->finish() && !parts_->approach(k_first_ridge)) {
       if (parts_->has_dense())
         status = parts_->search_dense(system);
       else if (parts_->best_residual > k_accepted_residual)

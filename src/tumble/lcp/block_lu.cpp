@@ -12,8 +12,8 @@ namespace {
 using Index = std::size_t;
 
 constexpr int k_natural_order_size = 8;  // up to here any order is as good
-constexpr Index k_max_updates = 16;
-constexpr double k_smallest_update = 1e-8;  // [-] what an update leaves of a direction
+constexpr Index k_max_updates = 8;
+constexpr double k_smallest_update = 1e-7;  // [-] what an update leaves of a direction
 
 double dot(const BlockLu::SparseVector& row, const std::vector<Vector3>& x) {
   double sum = 0.0;

@@ -78,6 +78,7 @@ class BodyModes {
   double correct();
   void respond(const std::vector<Pair>& offsets, Response& response);
   void start_path();
+  void correct_path(double lambda);
   bool change_mode_on_path(std::size_t i, ContactMode mode);
   int list_conditions(std::size_t i, const Response& response, Pair& values) const;
   ContactMode next_mode(std::size_t i, int condition, double u_t) const;

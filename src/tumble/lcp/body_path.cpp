@@ -75,6 +75,20 @@ void BodyModes::start_path() {
   }
 }
 
+// Takes away what rounding has gathered.
+void BodyModes::correct_path(double lambda) {
+  impulses = here_.f;
+  find_velocities();
+  find_contact_velocities();
+  for (Index i = 0; i < modes.size(); ++i) {
+    u_[i][0] += ridge_ * response_[i].nn * (here_.f[2 * i] - start_impulses_[2 * i]) + lambda * drift_[i][0];
+    u_[i][1] += ridge_ * response_[i].tt * (here_.f[2 * i + 1] - start_impulses_[2 * i + 1]) + lambda * drift_[i][1];
+  }
+  respond(u_, slope_);
+  for (Index k = 0; k < here_.f.size(); ++k) here_.f[k] += slope_.f[k];
+  here_.u = slope_.u;
+}
+
 // Conditions of contact i in its mode: value >= 0. At most two.
 int BodyModes::list_conditions(Index i, const Response& response, Pair& values) const {
   const double mu = system_->contacts[i].friction;
@@ -172,7 +186,9 @@ bool BodyModes::follow_near(double ridge, int max_pieces) {
       return true;
     }
     const ContactMode from = modes[next], to = next_mode(next, next_condition, here_.u[next][1]);
+    const int before = factorisations_;
     if (!change_mode_on_path(next, to)) return false;
+    if (factorisations_ > before) correct_path(lambda);
     border = border_condition(from, to);
     changed = next;
     if (is_seen() || !(lambda <= k_largest_lambda)) return false;
