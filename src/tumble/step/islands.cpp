@@ -68,7 +68,7 @@ void for_islands(Parts& parts, const F& f) {
   for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
     const auto begin = static_cast<Index>(parts.island_begin[i]), end = static_cast<Index>(parts.island_begin[i + 1]);
     const IslandContacts contacts = IslandContacts(parts.island_contact).subspan(begin, end - begin);
-    f(contacts, parts.outcome[static_cast<Index>(contacts.front())]);
+    f(contacts, parts.contacts[static_cast<Index>(contacts.front())].outcome);
   }
 }
 

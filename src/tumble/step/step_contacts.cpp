@@ -334,7 +334,6 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     const bool is_known = next < state.contacts.size() && key_of(state.contacts[next]) == key_of(c.contact);
     recall(is_known ? &state.contacts[next] : nullptr, h, c);
   }
-  parts.outcome.assign(parts.contacts.size(), {});
 }
 
 bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
@@ -352,13 +351,11 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
   for (StepContact& c : added) {
     set_motion(parts, h, c);
     recall(nullptr, h, c);
-    c.is_listed = true;
+    c.is_listed = c.is_new = true;
   }
   parts.contacts.insert(parts.contacts.end(), added.begin(), added.end());
   std::sort(parts.contacts.begin(), parts.contacts.end(),
             [](const auto& c, const auto& d) { return key_of(c.contact) < key_of(d.contact); });
-  for (StepContact& c : parts.contacts) c.is_new = c.is_listed;
-  parts.outcome.assign(parts.contacts.size(), {});
   return true;
 }
 
@@ -378,7 +375,6 @@ void stop_at_impacts(const Scene& scene, double h, Parts& parts) {
 
 void look_further(const Scene& scene, double h, const State& state, Parts& parts) {
   std::swap(parts.contacts, parts.last_contacts);
-  std::swap(parts.outcome, parts.last_outcome);
   prepare_contacts(scene, h, state, parts);
   const auto is_listed = [](const StepContact& c) { return c.is_listed; };
   auto num_lost = std::count_if(parts.last_contacts.begin(), parts.last_contacts.end(), is_listed);
@@ -393,7 +389,7 @@ void look_further(const Scene& scene, double h, const State& state, Parts& parts
       continue;
     if (last.is_listed) --num_lost;
     c = last;
-    parts.outcome[i] = parts.last_outcome[next++];
+    ++next;
   }
   if (num_lost == 0) return;
   // A pair of bodies is seen otherwise from further away: all start over.

@@ -16,6 +16,16 @@
 
 namespace tumble {
 
+struct IslandOutcome {
+  LcpStatus status = LcpStatus::solved;
+  double residual = 0.0;
+  int factorisations = 0;
+  bool is_at_work = false;  // some contact was touched
+  double created = 0.0;     // [J], above round-off
+  double lost = 0.0;        // [J]
+  bool has_moved = false;   // otherwise than freely, and was not yet separated
+};
+
 // One contact during a step. Velocities are (u_n, u_t).
 struct StepContact {
   Contact contact;
@@ -55,16 +65,7 @@ struct StepContact {
   bool sticks = false;       // closed, without slip
   double restitution = 0.0;  // that was at work
   double way_bend = 0.0;     // [m] of the way found
-};
-
-struct IslandOutcome {
-  LcpStatus status = LcpStatus::solved;
-  double residual = 0.0;
-  int factorisations = 0;
-  bool is_at_work = false;  // some contact was touched
-  double created = 0.0;     // [J], above round-off
-  double lost = 0.0;        // [J]
-  bool has_moved = false;   // otherwise than freely, and was not yet separated
+  IslandOutcome outcome;     // of the island whose first contact this is
 };
 
 // Two parts of which one may go far in the step, against their sizes: looked at along their way.
@@ -106,12 +107,10 @@ struct StepWorkspace::Parts {
   std::vector<FastPair> fast_pairs;
   std::vector<StepContact> added;  // of fast pairs
   std::vector<ContactPoint> points;
-  std::vector<int> parent;             // union-find over bodies
-  std::vector<int> island_of;          // root body -> island
-  std::vector<int> island_begin;       // islands + 1
-  std::vector<int> island_contact;     // indices into contacts
-  std::vector<IslandOutcome> outcome;  // of an island, at the index of its first contact
-  std::vector<IslandOutcome> last_outcome;
+  std::vector<int> parent;                   // union-find over bodies
+  std::vector<int> island_of;                // root body -> island
+  std::vector<int> island_begin;             // islands + 1
+  std::vector<int> island_contact;           // indices into contacts
   IslandSolver solver;                       // of impulses
   IslandSolver separator;                    // of overlaps
   std::vector<int> local_body, island_body;  // scene -> island, -1 if not of it, and back

@@ -205,7 +205,7 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   int num_islands = 0;
   for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
     const int first = parts.island_contact[static_cast<Index>(parts.island_begin[i])];
-    const IslandOutcome& outcome = parts.outcome[static_cast<Index>(first)];
+    const IslandOutcome& outcome = parts.contacts[static_cast<Index>(first)].outcome;
     if (outcome.status != LcpStatus::solved) worst.status = outcome.status;
     worst.residual = std::max(worst.residual, outcome.residual);
     worst.factorisations += outcome.factorisations;
