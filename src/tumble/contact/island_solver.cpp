@@ -50,7 +50,8 @@ struct IslandSolver::Parts {
   std::vector<ContactMode> best_modes;
   std::vector<double> best_impulses;
   double residual = 0.0, best_residual = 0.0;
-  Start start;
+  Start start, given;
+  bool is_close = false;  // a path led to what is nearly a solution
 
   // Keeps what is better than all before. True if it is good enough.
   bool offer() {
@@ -83,10 +84,12 @@ struct IslandSolver::Parts {
   bool follow() {
     if (!modes.follow_near(k_path_ridge, k_max_path_pieces)) return false;
     if (finish()) return true;
-    return residual <= k_close_residual && approach(k_path_ridge);
+    is_close = residual <= k_close_residual;
+    return false;
   }
 
   bool start_from(const std::vector<double>& impulses) {
+    is_close = false;
     start.keep(modes);
     const bool is_cold = std::all_of(impulses.begin(), impulses.end(), [](double f) { return f == 0.0; });
     if (run(is_cold ? k_first_rounds : k_last_rounds)) return true;
@@ -113,6 +116,14 @@ struct IslandSolver::Parts {
       ridge = std::max(0.1 * ridge, k_last_ridge);
     }
     return false;
+  }
+
+  bool solve_exactly(const std::vector<double>& impulses) {
+    given.keep(modes);
+    if (start_from(impulses) || (is_close && approach(k_path_ridge))) return true;
+    given.give_back(modes);
+    modes.sweep(k_first_sweeps);
+    return finish() || approach(k_first_ridge);
   }
 
   // By the general solver, which finds all that has a solution, but not as fast.
@@ -148,24 +159,22 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
   parts_->best_modes = modes;
   parts_->best_impulses = impulses;
   LcpStatus status = LcpStatus::solved;
-  if (settings.solver == ContactSolver::fast && system.contacts.size() > k_max_exact_contacts) {
-    if (parts_->best_residual > k_rest_residual) {
+  const bool is_fast = settings.solver == ContactSolver::fast;
+  const bool is_rough = is_fast && system.contacts.size() > k_max_exact_contacts;
+  if (parts_->best_residual > k_rest_residual && (is_rough || !parts_->solve_exactly(impulses))) {
+    if (is_fast) {
+      search.modes = modes;
+      search.impulses = impulses;
       for (int sweeps = 0; sweeps < settings.num_sweeps; sweeps += 2) {
         if (search.sweep(std::min(2, settings.num_sweeps - sweeps)) <= k_fast_change) break;
       }
       parts_->best_modes = search.modes;
       parts_->best_impulses = search.impulses;
       parts_->best_residual = search.residual();
-    }
-  } else if (parts_->best_residual > k_rest_residual && !parts_->start_from(impulses)) {
-    search.modes = modes;
-    search.impulses = impulses;
-    search.sweep(k_first_sweeps);
-    if (!parts_->finish() && !parts_->approach(k_first_ridge)) {
-      if (parts_->has_dense())
-        status = parts_->search_dense(system);
-      else if (parts_->best_residual > k_accepted_residual)
-        status = LcpStatus::iteration_limit;
+    } else if (parts_->has_dense()) {
+      status = parts_->search_dense(system);
+    } else if (parts_->best_residual > k_accepted_residual) {
+      status = LcpStatus::iteration_limit;
     }
   }
   search.impulses = parts_->best_impulses;
