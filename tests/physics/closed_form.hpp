@@ -51,13 +51,13 @@ double observed_order(const std::vector<double>& errors);
 // Round-off of motions of up to some thousand steps [-].
 inline constexpr double k_round_off = 1e-12;
 
-// Steps until `is_over(state, report)`, or the time is over, and returns whether it was. Throws std::runtime_error if it
-// ends at a step that is not solved.
+// Steps until `is_over(state, report)`, or the time is over, and returns whether it was. Throws std::runtime_error if a
+// step is not solved.
 template <class IsOver>
 bool run_until(Simulation& simulation, IsOver is_over) {
   while (!simulation.is_done()) {
     simulation.advance();
-    if (simulation.trajectory().status != LcpStatus::solved) throw std::runtime_error("a step was not solved");
+    if (simulation.report().status != LcpStatus::solved) throw std::runtime_error("a step was not solved");
     if (is_over(simulation.state(), simulation.report())) return true;
   }
   return false;

@@ -11,7 +11,8 @@ namespace {
 constexpr double k_round_off = 1e-13;         // [-] of what is summed, a few terms
 constexpr double k_ledger_round_off = 1e-12;  // [-] the same for energies, whose terms are products
 constexpr double k_closed_gap = 1e-12;        // [m] below is touch
-constexpr double k_residual = 1e-10;  // [-] that the solver accepts, of the largest speed at a contact of the island
+constexpr double k_rounded_residual = 1e-12;  // [-] what a step may be off beyond the residual that it reports
+constexpr double k_force_round_off = 1e-10;   // [-] of impulses that are found by the velocities they cause
 
 std::string describe(const ContactRecord& c) {
   return fmt::format(
@@ -31,11 +32,11 @@ struct Sum {
   }
 };
 
-// [m/s] of what contact velocities are sums of: speeds before and after, and what impulses change them by.
+// [m/s] of what contact velocities are sums of: speeds before and after, those of contacts that stay open included, and
+// what impulses change them by.
 double size_of_speeds(const Scene& scene, const StepReport& report) {
   double largest = 0.0;
   for (const ContactRecord& c : report.contacts) {
-    if (c.mode == ContactMode::open) continue;
     double change = 0.0;
     for (const int i : {c.contact.body_a, c.contact.body_b}) {
       const Body& body = scene.bodies[static_cast<std::size_t>(i)];
@@ -107,14 +108,16 @@ void check_signorini(const ContactRecord& c, double h, double tolerance, bool bo
 }
 
 // Friction within its cone; full, and against the slip, where there is one.
-void check_coulomb(const ContactRecord& c, double tolerance, std::vector<std::string>& broken) {
+// `slack` [N s]: what the impulse may be off where the velocity is by `tolerance`.
+void check_coulomb(const ContactRecord& c, double tolerance, double slack, std::vector<std::string>& broken) {
   const auto blame = [&](const char* what) { broken.push_back(fmt::format("{}: {}", what, describe(c))); };
   const double P_n = c.normal_impulse, P_t = c.friction_impulse, u_t = c.tangential_velocity_after;
-  if (std::abs(P_t) > c.law.static_friction * P_n * (1.0 + k_residual)) blame("friction is outside its cone");
+  if (std::abs(P_t) > c.law.static_friction * P_n * (1.0 + k_force_round_off)) blame("friction is outside its cone");
   if (c.mode == ContactMode::open || std::abs(u_t) <= tolerance) return;
-  if (std::abs(P_t) > c.law.friction * P_n * (1.0 + k_residual)) blame("friction of a slip is that of sticking");
+  if (std::abs(P_t) > c.law.friction * P_n * (1.0 + k_force_round_off) + slack)
+    blame("friction of a slip is that of sticking");
   if (c.law.friction > 0.0 && P_t * u_t > 0.0) blame("friction does not oppose the slip");
-  if (std::abs(P_t) < c.law.friction * P_n * (1.0 - k_residual)) blame("friction of a slip is not full");
+  if (std::abs(P_t) < c.law.friction * P_n * (1.0 - k_force_round_off) - slack) blame("friction of a slip is not full");
   if (c.mode == ContactMode::stick) blame("a contact slips that is said to stick");
   if ((c.mode == ContactMode::slip_left) != (u_t < 0.0)) blame("a contact slips to the other side than said");
 }
@@ -123,7 +126,12 @@ void check_coulomb(const ContactRecord& c, double tolerance, std::vector<std::st
 
 void check_contacts(const Scene& scene, double h, const State& before, const StepReport& report,
                     std::vector<std::string>& broken) {
-  const double residual = k_residual * size_of_speeds(scene, report);
+  const double residual = (report.residual + k_rounded_residual) * size_of_speeds(scene, report);
+  // Of a step that is not solved to round-off, impulses are off by what the residual can change them by.
+  const auto mass_of = [&](int body) {
+    const Body& b = scene.bodies[static_cast<std::size_t>(body)];
+    return b.kind == BodyKind::dynamic ? b.mass : HUGE_VAL;
+  };
   // Of gaps, by those of places [m/s].
   const auto rounding = [&](int body, Vector2 point) {
     return 1e-15 * (length(point) + length(before.bodies[static_cast<std::size_t>(body)].pose.position)) / h;
@@ -135,7 +143,9 @@ void check_contacts(const Scene& scene, double h, const State& before, const Ste
     const Contact& c = record.contact;
     const double tolerance = residual + rounding(c.body_a, c.point_a) + rounding(c.body_b, c.point_b);
     check_signorini(record, h, tolerance, bounces, broken);
-    if (!bounces) check_coulomb(record, tolerance, broken);
+    const double slack =
+        report.residual * size_of_speeds(scene, report) * std::min(mass_of(c.body_a), mass_of(c.body_b));
+    if (!bounces) check_coulomb(record, tolerance, slack, broken);
   }
 }
 

@@ -14,61 +14,62 @@
 namespace tumble::physics {
 namespace {
 
-// The first broken law of each kind, with the time, and the largest overlap from a time on. Steps that were not solved
-// to round-off say so themselves: large heaps have some.
+// The first broken law of each kind, with the time. Every step is held to the residual that it reports; all but
+// `accepted_inexact_steps` have to be solved.
 std::map<std::string, std::string> first_faults(const Scene& scene, double step_size, double duration, double* depth,
-                                                double depth_from = 0.0) {
+                                                int accepted_inexact_steps = 0) {
   std::map<std::string, std::string> faults;
   Simulation simulation = start(scene, step_size, duration);
   State before = simulation.state();
-  std::int64_t num_rough = 0;
-  run_until(simulation, [&](const State& after, const StepReport& report) {
-    if (report.residual > 1e-11) {
-      ++num_rough;
-      before = after;
-      return false;
-    }
+  while (!simulation.is_done()) {
+    simulation.advance();
+    const State& after = simulation.state();
+    const StepReport& report = simulation.report();
     for (const std::string& fault : broken_laws(scene, step_size, before, after, report)) {
       const std::string kind = fault.substr(0, fault.find(':'));
       faults.try_emplace(kind, fault + ", at " + std::to_string(after.time) + " s");
     }
-    if (depth && after.time >= depth_from) {
+    if (depth) {
       for (const ContactRecord& record : report.contacts) *depth = std::max(*depth, -record.contact.gap);
     }
     before = after;
-    return false;
-  });
-  EXPECT_LE(num_rough, simulation.num_steps() / 5);
+  }
+  EXPECT_TRUE(simulation.trajectory().is_complete);
+  EXPECT_LE(simulation.trajectory().num_inexact_steps, accepted_inexact_steps);
   return faults;
 }
 
-void expect_laws(const Scene& scene, double step_size, double duration, const std::string& what) {
-  for (const auto& [kind, fault] : first_faults(scene, step_size, duration, nullptr))
+void expect_laws(const Scene& scene, double step_size, double duration, const std::string& what,
+                 int accepted_inexact_steps = 0) {
+  for (const auto& [kind, fault] : first_faults(scene, step_size, duration, nullptr, accepted_inexact_steps))
     ADD_FAILURE() << what << ": " << fault;
 }
+
+// Of jammed concave bodies, in 3000 steps: see docs/theory/step.md.
+int accepted_inexact_steps(const std::string& scene) { return scene == "pile" ? 10 : 0; }
 
 class NamedScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(NamedScene, KeepsTheLaws) {
   const Scene scene = named_scene(GetParam());
-  ASSERT_NO_THROW(expect_laws(scene, scene.step_size, scene.duration, GetParam()));
+  ASSERT_NO_THROW(expect_laws(scene, scene.step_size, scene.duration, GetParam(), accepted_inexact_steps(GetParam())));
 }
 
 // Bodies may overlap by what a step does not see to third order, but not more and more.
 TEST_P(NamedScene, DoesNotSink) {
   constexpr double accepted_depth = 1e-5;  // [m]
+  constexpr double longest_step = 1e-3;    // [s]: at 2 ms bodies that turn at 20 rad/s overlap by twice that
   const Scene scene = named_scene(GetParam());
-  // Concave bodies that fall into each other turn within a step towards sides that they were not near.
-  const double from = GetParam() == "pile" ? 0.5 * scene.duration : 0.0;
   double depth = 0.0;
-  ASSERT_NO_THROW(first_faults(scene, scene.step_size, scene.duration, &depth, from));
+  ASSERT_NO_THROW(first_faults(scene, std::min(scene.step_size, longest_step), scene.duration, &depth,
+                               accepted_inexact_steps(GetParam())));
   EXPECT_LT(depth, accepted_depth);
 }
 
 TEST(NamedScenes, APileComesToRest) {
   const Scene scene = named_scene("pile");
   Simulation simulation = start(scene, scene.step_size, scene.duration);
-  run_until(simulation, [](const State&, const StepReport&) { return false; });
+  while (!simulation.is_done()) simulation.advance();
   EXPECT_TRUE(simulation.trajectory().is_complete);
   EXPECT_LT(simulation.report().energy.kinetic, 1e-12);
 }

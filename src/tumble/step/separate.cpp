@@ -63,19 +63,10 @@ void find_shifts(StepWorkspace::Parts& parts, IslandContacts contacts, double h,
 void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
               double lost) {
   const auto at = [&](int i) -> StepContact& { return parts.contacts[static_cast<Index>(i)]; };
-  // The bend of the way that was found, with slips that impacts may have changed.
-  const auto motion_of = [&](int body) {
-    const auto b = static_cast<Index>(body);
-    Motion motion{parts.poses[b].position, parts.velocity[b]};
-    if (parts.inverse_mass[b][0] > 0.0) {
-      for (Index j = 0; j < 3; ++j) motion.velocity[j] = parts.travel[b][j] / h;
-    }
-    return motion;
-  };
   for (const int i : contacts) {
     StepContact& c = at(i);
     if (!c.is_ahead) {
-      c.way_bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
+      c.way_bend = bend_of_way(parts, c.contact, h);
       continue;
     }
     // Bodies that meet on their way may turn by much after it: their shapes are looked at where they end.

@@ -124,6 +124,20 @@ void set_geometry(const Scene& scene, const Parts& parts, StepContact& c, double
   c.rows = contact_rows(c.contact, c.places, centre_a, centre_b);
 }
 
+// Two round surfaces, the more so two corners, turn their normal as they pass: past half their distance from centre to
+// centre the first two derivatives of the gap no longer tell what it will be.
+double bend_of(const Contact& contact, const Motion& a, const Motion& b, double h) {
+  const double distance = contact.gap + contact.radius_a + contact.radius_b;
+  if (std::isfinite(distance)) {
+    const auto velocity_at = [](const Motion& body, Vector2 point) {
+      return Vector2{body.velocity[0], body.velocity[1]} + body.velocity[2] * turned_left(point - body.position);
+    };
+    const double slip = cross(contact.normal, velocity_at(b, contact.point_b) - velocity_at(a, contact.point_a));
+    if (!(h * std::abs(slip) < 0.5 * distance)) return 0.0;
+  }
+  return 0.5 * h * h * gap_curvature(contact, a, b);
+}
+
 // How the gap changes in the step.
 void set_motion(const Parts& parts, double h, StepContact& c) {
   const auto motion_of = [&](int body) {
@@ -290,20 +304,6 @@ double least_gap_at_end(double h, Parts& parts, const Contact& pair) {
   return least;
 }
 
-// Two round surfaces, the more so two corners, turn their normal as they pass: past half their distance from centre to
-// centre the first two derivatives of the gap no longer tell what it will be.
-double bend_of(const Contact& contact, const Motion& a, const Motion& b, double h) {
-  const double distance = contact.gap + contact.radius_a + contact.radius_b;
-  if (std::isfinite(distance)) {
-    const auto velocity_at = [](const Motion& body, Vector2 point) {
-      return Vector2{body.velocity[0], body.velocity[1]} + body.velocity[2] * turned_left(point - body.position);
-    };
-    const double slip = cross(contact.normal, velocity_at(b, contact.point_b) - velocity_at(a, contact.point_a));
-    if (!(h * std::abs(slip) < 0.5 * distance)) return 0.0;
-  }
-  return 0.5 * h * h * gap_curvature(contact, a, b);
-}
-
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   const std::vector<Contact>& found = parts.finder.find(parts.poses, parts.reach);
   parts.contacts.clear();
@@ -401,14 +401,26 @@ void look_further(const Scene& scene, double h, const State& state, Parts& parts
   }
 }
 
+double bend_of_way(const Parts& parts, const Contact& contact, double h) {
+  const auto motion_of = [&](int body) {
+    const auto b = static_cast<Index>(body);
+    Motion motion{parts.poses[b].position, parts.velocity[b]};
+    if (parts.inverse_mass[b][0] > 0.0) {
+      for (Index j = 0; j < 3; ++j) motion.velocity[j] = parts.travel[b][j] / h;
+    }
+    return motion;
+  };
+  return bend_of(contact, motion_of(contact.body_a), motion_of(contact.body_b), h);
+}
+
 bool list_overrun(double h, Parts& parts) {
   constexpr double round_off = 1e-12;  // [-] of the way
   bool has_new = false;
   for (StepContact& c : parts.contacts) {
     if (c.is_listed) continue;
-    double gap = c.gap + c.bend + h * c.rows.offset;
-    if (c.rows.body_a >= 0) gap += dot(c.rows.normal_a, parts.travel[static_cast<Index>(c.rows.body_a)]);
-    if (c.rows.body_b >= 0) gap += dot(c.rows.normal_b, parts.travel[static_cast<Index>(c.rows.body_b)]);
+    double gap = c.gap + h * c.rows.offset;
+    for_bodies(c.rows, [&](Index b, const Vector3& normal, const Vector3&) { gap += dot(normal, parts.travel[b]); });
+    gap += c.is_ahead ? c.bend : std::min(c.bend, bend_of_way(parts, c.contact, h));
     if (gap >= -round_off * (c.gap + h * (std::abs(c.speed[0]) + std::abs(c.free_speed[0])))) continue;
     c.is_listed = c.is_new = has_new = true;
   }

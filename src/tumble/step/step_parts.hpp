@@ -124,9 +124,9 @@ void prepare_contacts(const Scene& scene, double step_size, const State& state, 
 // the same keep their motion.
 void look_further(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
 
-// [m] What turning and curved surfaces add to the gap in the step, to second order, where the two bodies move with
-// these velocities; 0 where that says little.
-double bend_of(const Contact& contact, const Motion& a, const Motion& b, double step_size);
+// [m] What turning and curved surfaces add to the gap in the step, to second order, where the two bodies move by the
+// travel found, which impacts may have changed; 0 where that says little.
+double bend_of_way(const StepWorkspace::Parts& parts, const Contact& contact, double step_size);
 
 // [m] Of two parts where their bodies end with the travel found: below 0 where they overlap, else infinite.
 double least_gap_at_end(double step_size, StepWorkspace::Parts& parts, const Contact& pair);
