@@ -137,8 +137,11 @@ struct IslandSolver::Parts {
       const double f_t = modes.impulses[2 * i + 1];
       modes.modes[i] = contact_mode(result.z[i], result.z[3 * m + i], f_t != 0.0 ? -f_t : 1.0);
     }
-    if (result.status != LcpStatus::solved) return offer() ? LcpStatus::solved : result.status;
-    best_residual = modes.residual();
+    start.keep(modes);
+    if (offer() || run(k_last_rounds)) return LcpStatus::solved;
+    if (result.status != LcpStatus::solved) return result.status;
+    start.give_back(modes);
+    best_residual = result.residual;
     best_modes = modes.modes;
     best_impulses = modes.impulses;
     return LcpStatus::solved;

@@ -23,7 +23,7 @@ struct IslandSettings {
 struct IslandSolution {
   LcpStatus status =
       LcpStatus::solved;  // solved, infeasible, ray_unproven, no_solution_proved, iteration_limit, numerical
-  double residual = 0.0;  // of `BodyModes::residual`
+  double residual = 0.0;  // of `BodyModes::residual`, or of the LCP where the general solver solved that
   int factorisations = 0;
 };
 
