@@ -11,7 +11,7 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr int k_natural_order_size = 8;  // up to here any order is as good
+constexpr int k_natural_order_size = 16;  // up to here any order is nearly as good
 constexpr Index k_max_updates = 8;
 constexpr double k_smallest_update = 1e-7;  // [-] what an update leaves of a direction
 
@@ -99,12 +99,13 @@ void BlockLu::set_pattern(int num_rows, const Pairs& pairs) {
   const auto n = static_cast<Index>(num_rows);
 
   // Columns of the factor: what is coupled, and what elimination couples (a column passes its rows to its parent).
-  std::vector<std::vector<int>> column(n);
+  std::vector<std::vector<int>>& column = columns_;
+  if (column.size() < n) column.resize(n);
+  for (std::vector<int>& rows : column) rows.clear();
   for (const auto& [i, j] : pairs) {
     const int k = position_[static_cast<Index>(i)], l = position_[static_cast<Index>(j)];
     column[static_cast<Index>(std::min(k, l))].push_back(std::max(k, l));
   }
-  std::vector<int> merged;
   for (Index k = 0; k < n; ++k) {
     std::sort(column[k].begin(), column[k].end());
     column[k].erase(std::unique(column[k].begin(), column[k].end()), column[k].end());

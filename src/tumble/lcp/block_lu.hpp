@@ -47,6 +47,7 @@ class BlockLu {
  private:
   void order(int num_rows);
 
+  std::vector<std::vector<int>> columns_;  // scratch of `set_pattern`
   int num_rows_ = -1;
   Pairs pairs_;
   std::vector<int> position_, row_at_;             // row -> place in the order of elimination, and back
