@@ -16,10 +16,9 @@ constexpr double k_duration = 0.02;  // [s]
 // Runs a scene without gravity at step sizes from longer than the whole flight to a small part of it, and restitutions;
 // the last body must stay on its side of the first, or inside, as `is_right` has it.
 template <class IsRight>
-void expect_no_passage(std::vector<Body> bodies, IsRight is_right, const std::string& what,
-                       const std::vector<double>& restitutions = {0.0, 0.5, 1.0}) {
+void expect_no_passage(std::vector<Body> bodies, IsRight is_right, const std::string& what) {
   for (const double step_size : {1e-2, 1e-3, 1e-4}) {
-    for (const double restitution : restitutions) {
+    for (const double restitution : {0.0, 0.5, 1.0}) {
       const Scene scene = without_gravity(scene_of(law(0.3, restitution), bodies));
       Simulation simulation = start(scene, step_size, k_duration);
       bool is_through = false;
@@ -35,8 +34,9 @@ bool is_in_order(const State& state) {
   return state.bodies.front().pose.position.x > state.bodies.back().pose.position.x;
 }
 
-// Longer than bodies can roll along it in the time.
-Body wall() { return fixed(segment({0.0, -30.0}, {0.0, 30.0}), {{1.0, 0.0}, 0.0}); }
+Body wall(double half_height = 1.0) {
+  return fixed(segment({0.0, -half_height}, {0.0, half_height}), {{1.0, 0.0}, 0.0});
+}
 
 TEST(Fast, BodiesStayInFrontOfAWallWithoutThickness) {
   expect_no_passage({wall(), dynamic(disc(0.01), 1.0, {}, {k_speed, 0.0, 0.0})}, is_in_order, "disc");
@@ -45,19 +45,14 @@ TEST(Fast, BodiesStayInFrontOfAWallWithoutThickness) {
                     "capsule");
 }
 
-void expect_long_bodies_in_front(const std::vector<double>& restitutions) {
-  expect_no_passage({wall(), dynamic(ellipse(0.02, 0.01), 1.0, {{}, 0.3}, {k_speed, 20.0, 0.0})}, is_in_order,
-                    "ellipse", restitutions);
-  expect_no_passage({wall(), dynamic_of_gyration(segment({-0.1, 0.0}, {0.1, 0.0}), 1.0, 0.04 / 12.0, {{}, 1.2},
-                                                 {k_speed, 0.0, 40.0})},
-                    is_in_order, "rod", restitutions);
-}
-
-TEST(Fast, LongBodiesThatBounceStayInFrontOfAWallWithoutThickness) { expect_long_bodies_in_front({0.5, 1.0}); }
-
-TEST(Fast, LongBodiesThatStopStayInFrontOfAWallWithoutThickness) {
-  GTEST_SKIP() << "a body that touches a wall and turns by radians in a step may roll through it";
-  expect_long_bodies_in_front({0.0});
+// After the impact they roll along the wall, at up to 140 m/s: it has to be longer than that takes them.
+TEST(Fast, LongBodiesThatTurnStayInFrontOfAWallWithoutThickness) {
+  const Body long_wall = wall(30.0);
+  expect_no_passage({long_wall, dynamic(ellipse(0.02, 0.01), 1.0, {{}, 0.3}, {k_speed, 20.0, 0.0})}, is_in_order,
+                    "ellipse");
+  // 0.2 mm thick: without any thickness, what lies flat on a wall without thickness is on neither side of it.
+  expect_no_passage({long_wall, dynamic(capsule(0.2, 0.0001), 1.0, {{}, 1.2}, {k_speed, 0.0, 40.0})}, is_in_order,
+                    "rod");
 }
 
 TEST(Fast, ThinBodiesDoNotPassEachOther) {

@@ -294,6 +294,37 @@ bool has_listed(const Parts& parts, const Contact& pair) {
   return false;
 }
 
+// The part of the way that two parts which touch can go, turning far, before one is deep inside the other: they would
+// come out on the other side.
+double share_before_depth(double h, Parts& parts, const Contact& pair) {
+  constexpr double part = 0.25;  // [rad], and [-] of the radius: of the way between two looks, and of the depth
+  constexpr double most_looks = 1000.0;
+  const double radius = size_of_pair(parts, pair).radius;
+  set_way_velocity(h, parts, pair);
+  double turn = 0.0, way = 0.0;
+  for (const int body : {pair.body_a, pair.body_b}) {
+    const Vector3& travel = parts.travel[static_cast<Index>(body)];
+    turn = std::max(turn, std::abs(travel[2]));
+    way += length(Vector2{travel[0], travel[1]});
+  }
+  if (turn <= part) return 1.0;
+  const double looks = std::min(most_looks, std::ceil(std::max(turn / part, way / (part * radius))));
+  for (double look = 1.0; look <= looks; ++look) {
+    find_contacts_at(parts, pair, parts.way_velocity, look / looks * h, 0.0);
+    for (const ContactPoint& point : parts.points) {
+      if (point.gap < -part * radius) return (look - 1.0) / looks;
+    }
+  }
+  return 1.0;
+}
+
+void shorten_way(Parts& parts, const Contact& pair, double share) {
+  for (const int body : {pair.body_a, pair.body_b}) {
+    if (!(parts.inverse_mass[static_cast<Index>(body)][0] > 0.0)) continue;
+    for (double& way : parts.travel[static_cast<Index>(body)]) way *= share;
+  }
+}
+
 }  // namespace
 
 double least_gap_at_end(double h, Parts& parts, const Contact& pair) {
@@ -359,17 +390,18 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
   return true;
 }
 
-void stop_at_impacts(const Scene& scene, double h, Parts& parts) {
+void stop_at_impacts(double h, Parts& parts) {
   for (FastPair& pair : parts.fast_pairs) {
     const Contact& c = pair.nearest;
     set_way_velocity(h, parts, c);
     if (has_listed(parts, c) && !may_end_inside(h, parts, c)) continue;
     const auto impact = find_impact(h, parts, pair, parts.way_velocity);
-    if (!impact) continue;
-    for (const int body : {c.body_a, c.body_b}) {
-      if (!is_dynamic(scene, body)) continue;
-      for (double& way : parts.travel[static_cast<Index>(body)]) way *= impact->time / h;
-    }
+    if (impact) shorten_way(parts, c, impact->time / h);
+  }
+  for (const StepContact& c : parts.contacts) {
+    if (!c.is_listed || c.is_ahead) continue;
+    const double share = share_before_depth(h, parts, c.contact);
+    if (share < 1.0) shorten_way(parts, c.contact, share);
   }
 }
 

@@ -137,8 +137,8 @@ bool list_overrun(double step_size, StepWorkspace::Parts& parts);
 // Adds the contacts of fast bodies that the motion found would run through. False if there are none.
 bool add_contacts_on_way(const Scene& scene, double step_size, StepWorkspace::Parts& parts);
 
-// Shortens the ways of fast bodies that would still run through each other, so that they end where they meet.
-void stop_at_impacts(const Scene& scene, double step_size, StepWorkspace::Parts& parts);
+// Shortens the ways of bodies that would still run, or turn, through each other, so that they end before.
+void stop_at_impacts(double step_size, StepWorkspace::Parts& parts);
 
 // The motion of all islands, and the contacts that they reach. Islands whose contacts stay the same keep theirs.
 void step_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);

@@ -200,7 +200,7 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
     if (is_within_reach(parts) || look == k_max_looks) break;
     look_further(scene, h, state, parts);
   }
-  stop_at_impacts(scene, h, parts);
+  stop_at_impacts(h, parts);
   IslandOutcome worst;
   int num_islands = 0;
   for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
