@@ -40,7 +40,7 @@ run: deps-build ## simulate the course's start; writes out/drop.csv, out/drop.gi
 	@echo "  $(BUILD)/bin/tumble --help"
 	@echo "  make && PYTHONPATH=$(BUILD)/python $(PYTHON) -c 'from tumble.drop import simulate; print(simulate([0, 1.5, 0.5], [0, -0.2, 0]))'"
 
-test: ## all tests; LONG=1 compares the bits of more builds; the last line is "N passed, N failed"
+test: ## all tests; the last line is "N passed, N failed"
 	@scripts/deps.sh build python test
 	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_TESTS=ON -DTUMBLE_WERROR=ON >/dev/null
 	@cmake --build $(BUILD)

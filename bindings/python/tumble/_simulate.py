@@ -53,7 +53,7 @@ def simulate(
     solver : str
         "exact": the LCP of each step to a residual of 1e-10 and mostly to round-off, or a status that says it is not.
         "fast": the same where up to 50 contacts hang together; where more do, up to `num_sweeps` sweeps of block
-        Gauss-Seidel, and gaps and overlaps below 5e-4 of a body's radius are left alone. For many bodies at once.
+        Gauss-Seidel. For many bodies at once.
     num_sweeps : int
         Of the fast solver, at most.
     contacts : bool

@@ -12,7 +12,7 @@ namespace tumble {
 enum class ContactSolver {
   exact,  // the LCP to a residual of 1e-10 and mostly to round-off, or a status that says it is not
   fast,   // the same for islands of up to 50 contacts, if it gets there; for larger ones, sweeps of block
-         // Gauss-Seidel from the impulses of the last step, up to `num_sweeps`, with small gaps and overlaps left alone
+          // Gauss-Seidel from the impulses of the last step, up to `num_sweeps`
 };
 
 struct IslandSettings {

@@ -27,7 +27,7 @@ void find_shifts(StepWorkspace::Parts& parts, IslandContacts contacts, double h,
     for_bodies(c.rows, [&](Index b, const Vector3& n, const Vector3&) {
       for (Index j = 0; j < 3; ++j) response += n[j] * n[j] * parts.inverse_mass[b][j];
     });
-    const double push = -(gap_after(parts, c, h) + c.slop) / response;
+    const double push = -gap_after(parts, c, h) / response;
     for_bodies(c.rows, [&](Index b, const Vector3& n, const Vector3&) {
       for (Index j = 0; j < 3; ++j) parts.shift[b][j] = parts.inverse_mass[b][j] * n[j] * push;
     });
@@ -47,7 +47,7 @@ void find_shifts(StepWorkspace::Parts& parts, IslandContacts contacts, double h,
     BodyContact& rows = solver.system.contacts.emplace_back(at(i).rows);
     rows.body_a = local(rows.body_a);
     rows.body_b = local(rows.body_b);
-    rows.offset = gap_after(parts, at(i), h) + at(i).slop;
+    rows.offset = gap_after(parts, at(i), h);
     rows.tangent_offset = 0.0;
     rows.friction = 0.0;
     solver.modes.push_back(rows.offset < 0.0 ? ContactMode::slip_right : ContactMode::open);
@@ -77,7 +77,7 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
   const bool has_overlap = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
     double size = 0.0;
     for_bodies(at(i).rows, [&](Index b, const Vector3&, const Vector3&) { size = std::max(size, parts.radius[b]); });
-    return gap_after(parts, at(i), h) < -std::max(k_round_off * size, at(i).slop);
+    return gap_after(parts, at(i), h) < -k_round_off * size;
   });
   if (!has_overlap) return;
   list_bodies(parts, contacts);

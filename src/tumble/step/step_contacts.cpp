@@ -117,8 +117,7 @@ bool is_fast(const Parts& parts, std::span<const Contact> pair) {
 void set_geometry(const Scene& scene, const Parts& parts, StepContact& c, double round_off, Vector2 centre_a,
                   Vector2 centre_b) {
   c.law = &law_of(scene, parts, c.contact);
-  c.slop = parts.slop > 0.0 ? parts.slop * size_of_pair(parts, c.contact).radius : 0.0;
-  c.gap = c.contact.gap > std::max(round_off, c.slop) ? c.contact.gap : 0.0;
+  c.gap = c.contact.gap > round_off ? c.contact.gap : 0.0;
   c.tangent = turned_right(c.contact.normal);
   c.places = contact_places(c.contact, c.gap > 0.0);
   c.rows = contact_rows(c.contact, c.places, centre_a, centre_b);

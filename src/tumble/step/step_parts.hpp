@@ -40,7 +40,6 @@ struct StepContact {
   double bend = 0.0;                   // [m] what turning and curved surfaces add to it in the step: h^2 / 2 times
                                        // `gap_curvature`
   double gap_at_start = 0.0;           // [m] < 0: overlap
-  double slop = 0.0;                   // [m] gaps and overlaps below are left alone
   bool is_ahead = false;               // of fast bodies: where they will meet, not where they are closest now
   bool was_closed = false;             // in the last step, and did not bounce
   bool has_stuck = false;              // in the last step: static friction may hold it
@@ -87,7 +86,6 @@ struct StepWorkspace::Parts {
 
   std::vector<std::vector<ShapeSize>> sizes;  // per body, per part
 
-  double slop = 0.0;  // [-] of the smaller radius of two shapes
   // Of a step, per body.
   std::vector<Pose> poses;
   std::vector<double> reach;             // [m]

@@ -18,9 +18,6 @@ using Parts = StepWorkspace::Parts;
 // The body may be pushed a little within a step without a second look for contacts: [-] of its size.
 constexpr double k_slack = 0.005;
 constexpr int k_max_looks = 8;
-// [-] of the radius: the fast solver leaves smaller gaps and overlaps alone. Its errors, taken for gaps to be closed
-// within a step, would keep stacks rocking.
-constexpr double k_fast_slop = 5e-4;
 
 bool is_finite(const BodyState& b) {
   // 0 times a number is 0 only if that is finite.
@@ -190,7 +187,6 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   check(scene, h, state);
   validate(settings);
   Parts& parts = workspace.parts();
-  parts.slop = settings.solver == ContactSolver::fast ? k_fast_slop : 0.0;
   predict(scene, h, state, parts);
   prepare_contacts(scene, h, state, parts);
   for (int look = 1;; ++look) {
