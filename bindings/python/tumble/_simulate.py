@@ -34,7 +34,7 @@ def simulate(
     duration: float | None = None,
     sample_every: int = 1,
     solver: str = "exact",
-    num_sweeps: int = 20,
+    num_sweeps: int = 24,
     contacts: bool = True,
     progress: bool = False,
 ) -> Trajectory:

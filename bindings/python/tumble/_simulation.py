@@ -74,7 +74,7 @@ class Simulation:
     __slots__ = ("_core", "scene")
 
     def __init__(
-        self, scene: Scene, *, step_size: float | None = None, solver: str = "exact", num_sweeps: int = 20
+        self, scene: Scene, *, step_size: float | None = None, solver: str = "exact", num_sweeps: int = 24
     ) -> None:
         require_scene(scene)
         self._core = _core.Stepper(scene._core, step_size, solver, num_sweeps)

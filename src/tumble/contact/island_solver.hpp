@@ -17,7 +17,7 @@ enum class ContactSolver {
 
 struct IslandSettings {
   ContactSolver solver = ContactSolver::exact;
-  int num_sweeps = 20;  // fast
+  int num_sweeps = 24;  // fast
 };
 
 struct IslandSolution {

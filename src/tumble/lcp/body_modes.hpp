@@ -67,6 +67,13 @@ class BodyModes {
 
   using Pair = std::array<double, 2>;  // (n, t)
 
+  // Where a condition of a contact reaches 0 along a path, `step` of lambda away.
+  struct Border {
+    std::size_t contact;
+    int condition;
+    double step;
+  };
+
   // Impulses that the modes call for, and the velocities at the contacts with them.
   struct Response {
     std::vector<double> f;
@@ -80,6 +87,7 @@ class BodyModes {
   void start_path();
   void correct_path(double lambda);
   bool change_mode_on_path(std::size_t i, ContactMode mode);
+  Border next_border(double sign, double step, const Border& last) const;
   int list_conditions(std::size_t i, const Response& response, Pair& values) const;
   ContactMode next_mode(std::size_t i, int condition, double u_t) const;
   void find_contact_velocities();

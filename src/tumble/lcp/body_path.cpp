@@ -118,9 +118,9 @@ bool BodyModes::change_mode_on_path(Index i, ContactMode mode) {
   modes[i] = mode;
   const double weight_n = 1.0 / (ridge_ * response_[i].nn), weight_t = 1.0 / (ridge_ * response_[i].tt);
   const bool is_normal = from == ContactMode::open || mode == ContactMode::open;
-  const double lean =
-      -slip_direction(mode == ContactMode::open || mode == ContactMode::stick ? from : mode) * c.friction;
-  const double sign = mode == ContactMode::open || mode == ContactMode::stick ? -1.0 : 1.0;
+  const bool starts_slip = slip_direction(mode) != 0.0;
+  const double lean = -slip_direction(starts_slip ? mode : from) * c.friction;
+  const double sign = starts_slip ? 1.0 : -1.0;
   BlockLu::SparseVector column, row;
   Index k = 0;
   for_bodies(c, [&](Index b, const Vector3& normal, const Vector3& tangent) {
@@ -137,6 +137,24 @@ bool BodyModes::change_mode_on_path(Index i, ContactMode mode) {
   return equations_.factor();
 }
 
+// Where the path, going on in direction `sign` of lambda, first meets the border of a mode: within `step`, or nowhere.
+// The condition that the change before has just met is none.
+BodyModes::Border BodyModes::next_border(double sign, double step, const Border& last) const {
+  Border next{modes.size(), 0, step};
+  Pair value{}, slope{};
+  for (Index i = 0; i < modes.size(); ++i) {
+    const int count = list_conditions(i, here_, value);
+    list_conditions(i, slope_, slope);
+    for (int k = 0; k < count; ++k) {
+      if (i == last.contact && k == last.condition) continue;
+      const double rate = -sign * slope[static_cast<Index>(k)];
+      const double rest = std::max(value[static_cast<Index>(k)], 0.0);
+      if (rate > 0.0 && rest < next.step * rate) next = {i, k, rest / rate};
+    }
+  }
+  return next;
+}
+
 bool BodyModes::follow_near(double ridge, int max_pieces) {
   ridge_ = ridge;
   is_near_ = true;
@@ -145,52 +163,36 @@ bool BodyModes::follow_near(double ridge, int max_pieces) {
   ++factorisations_;
   if (!equations_.factor()) return false;
   double lambda = 1.0, sign = -1.0;
-  Index changed = modes.size();
-  int border = 0;
+  Border last{modes.size(), 0, 0.0};
   seen_.clear();
   for (int piece = 0; piece < max_pieces; ++piece) {
     respond(drift_, slope_);
-    Pair value{}, slope{};
-    if (changed < modes.size()) {
-      list_conditions(changed, slope_, slope);
-      sign = slope[static_cast<Index>(border)] > 0.0 ? 1.0 : -1.0;
+    if (last.contact < modes.size()) {
+      Pair slope{};
+      list_conditions(last.contact, slope_, slope);
+      sign = slope[static_cast<Index>(last.condition)] > 0.0 ? 1.0 : -1.0;
     }
-    double step = sign < 0.0 ? lambda : HUGE_VAL;
-    Index next = modes.size();
-    int next_condition = 0;
-    for (Index i = 0; i < modes.size(); ++i) {
-      const int count = list_conditions(i, here_, value);
-      list_conditions(i, slope_, slope);
-      for (int k = 0; k < count; ++k) {
-        if (i == changed && k == border) continue;
-        const double rate = -sign * slope[static_cast<Index>(k)];
-        const double rest = std::max(value[static_cast<Index>(k)], 0.0);
-        if (rate > 0.0 && rest < step * rate) {
-          step = rest / rate;
-          next = i;
-          next_condition = k;
-        }
-      }
-    }
-    if (next == modes.size() && sign > 0.0) return false;  // a ray
-    lambda += sign * step;
+    const Border next = next_border(sign, sign < 0.0 ? lambda : HUGE_VAL, last);
+    const bool is_end = next.contact == modes.size();
+    if (is_end && sign > 0.0) return false;  // a ray
+    lambda += sign * next.step;
     for (Index i = 0; i < modes.size(); ++i) {
       for (Index j = 0; j < 2; ++j) {
-        here_.f[2 * i + j] += sign * step * slope_.f[2 * i + j];
-        here_.u[i][j] += sign * step * slope_.u[i][j];
+        here_.f[2 * i + j] += sign * next.step * slope_.f[2 * i + j];
+        here_.u[i][j] += sign * next.step * slope_.u[i][j];
       }
     }
-    if (next == modes.size()) {
+    if (is_end) {
       impulses = here_.f;
       impose_modes();
       return true;
     }
-    const ContactMode from = modes[next], to = next_mode(next, next_condition, here_.u[next][1]);
+    const ContactMode from = modes[next.contact];
+    const ContactMode to = next_mode(next.contact, next.condition, here_.u[next.contact][1]);
     const int before = factorisations_;
-    if (!change_mode_on_path(next, to)) return false;
+    if (!change_mode_on_path(next.contact, to)) return false;
     if (factorisations_ > before) correct_path(lambda);
-    border = border_condition(from, to);
-    changed = next;
+    last = {next.contact, border_condition(from, to), 0.0};
     if (is_seen() || !(lambda <= k_largest_lambda)) return false;
   }
   return false;

@@ -12,7 +12,7 @@ namespace tumble {
 
 struct StepSettings {
   ContactSolver solver = ContactSolver::exact;
-  int num_sweeps = 20;  // of the fast solver, >= 1
+  int num_sweeps = 24;  // of the fast solver, >= 1
 };
 
 // Throws std::invalid_argument, naming the field, for a setting outside its range.
