@@ -91,18 +91,13 @@ void BlockLu::order(int num_rows) {
   }
 }
 
-void BlockLu::set_pattern(int num_rows, const Pairs& pairs) {
-  if (num_rows == num_rows_ && pairs == pairs_) return;
-  num_rows_ = num_rows;
-  pairs_ = pairs;
-  order(num_rows);
-  const auto n = static_cast<Index>(num_rows);
-
-  // Columns of the factor: what is coupled, and what elimination couples (a column passes its rows to its parent).
+// Columns of the factor: what is coupled, and what elimination couples (a column passes its rows to its parent).
+void BlockLu::find_columns() {
+  const auto n = static_cast<Index>(num_rows_);
   std::vector<std::vector<int>>& column = columns_;
   if (column.size() < n) column.resize(n);
   for (std::vector<int>& rows : column) rows.clear();
-  for (const auto& [i, j] : pairs) {
+  for (const auto& [i, j] : pairs_) {
     const int k = position_[static_cast<Index>(i)], l = position_[static_cast<Index>(j)];
     column[static_cast<Index>(std::min(k, l))].push_back(std::max(k, l));
   }
@@ -113,6 +108,17 @@ void BlockLu::set_pattern(int num_rows, const Pairs& pairs) {
     std::vector<int>& parent = column[static_cast<Index>(column[k].front())];
     parent.insert(parent.end(), column[k].begin() + 1, column[k].end());
   }
+}
+
+void BlockLu::set_pattern(int num_rows, const Pairs& pairs) {
+  if (num_rows == num_rows_ && pairs == pairs_) return;
+  num_rows_ = num_rows;
+  pairs_ = pairs;
+  order(num_rows);
+  const auto n = static_cast<Index>(num_rows);
+
+  find_columns();
+  const std::vector<std::vector<int>>& column = columns_;
   column_begin_.assign(1, 0);
   column_row_.clear();
   for (Index k = 0; k < n; ++k) {

@@ -46,8 +46,9 @@ class BlockLu {
 
  private:
   void order(int num_rows);
+  void find_columns();
 
-  std::vector<std::vector<int>> columns_;  // scratch of `set_pattern`
+  std::vector<std::vector<int>> columns_;  // of the factor, per step of elimination
   int num_rows_ = -1;
   Pairs pairs_;
   std::vector<int> position_, row_at_;             // row -> place in the order of elimination, and back

@@ -139,6 +139,45 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
   }
 }
 
+// What became of the islands: the worst of them, and their sums.
+StepReport summary_of(const Parts& parts) {
+  StepReport summary;
+  for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
+    const int first = parts.island_contact[static_cast<Index>(parts.island_begin[i])];
+    const IslandOutcome& outcome = parts.contacts[static_cast<Index>(first)].outcome;
+    if (outcome.status != LcpStatus::solved) summary.status = outcome.status;
+    summary.residual = std::max(summary.residual, outcome.residual);
+    summary.factorisations += outcome.factorisations;
+    summary.energy.created += outcome.created;
+    summary.num_islands += outcome.is_at_work ? 1 : 0;
+  }
+  return summary;
+}
+
+// The state at the end of the step.
+void advance(const Scene& scene, double h, State& state, const Parts& parts) {
+  state.time += h;
+  for (Index i = 0; i < scene.bodies.size(); ++i) {
+    BodyState& body = state.bodies[i];
+    const Vector3& travel = parts.travel[i];
+    if (scene.bodies[i].kind == BodyKind::fixed) continue;
+    if (scene.bodies[i].kind == BodyKind::kinematic) {
+      body.pose = prescribed_pose(scene.bodies[i], state.time);
+    } else {
+      body.pose.position = body.pose.position + Vector2{travel[0], travel[1]};
+      body.pose.angle += travel[2];
+    }
+    body.velocity = parts.next_velocity[i];
+  }
+  state.contacts.clear();
+  for (const StepContact& c : parts.contacts) {
+    if (!c.is_listed || c.mode == ContactMode::open) continue;
+    const Contact& k = c.contact;
+    state.contacts.push_back({k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.sticks, c.restitution > 0.0,
+                              c.impulse[0], c.impulse[1]});
+  }
+}
+
 }  // namespace
 
 StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
@@ -197,44 +236,15 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
     look_further(scene, h, state, parts);
   }
   stop_at_impacts(h, parts);
-  IslandOutcome worst;
-  int num_islands = 0;
-  for (Index i = 0; i + 1 < parts.island_begin.size(); ++i) {
-    const int first = parts.island_contact[static_cast<Index>(parts.island_begin[i])];
-    const IslandOutcome& outcome = parts.contacts[static_cast<Index>(first)].outcome;
-    if (outcome.status != LcpStatus::solved) worst.status = outcome.status;
-    worst.residual = std::max(worst.residual, outcome.residual);
-    worst.factorisations += outcome.factorisations;
-    worst.created += outcome.created;
-    num_islands += outcome.is_at_work ? 1 : 0;
-  }
-
-  state.time += h;
-  for (Index i = 0; i < scene.bodies.size(); ++i) {
-    BodyState& body = state.bodies[i];
-    const Vector3& travel = parts.travel[i];
-    if (scene.bodies[i].kind == BodyKind::fixed) continue;
-    if (scene.bodies[i].kind == BodyKind::kinematic) {
-      body.pose = prescribed_pose(scene.bodies[i], state.time);
-    } else {
-      body.pose.position = body.pose.position + Vector2{travel[0], travel[1]};
-      body.pose.angle += travel[2];
-    }
-    body.velocity = parts.next_velocity[i];
-  }
-  state.contacts.clear();
-  for (const StepContact& c : parts.contacts) {
-    if (!c.is_listed || c.mode == ContactMode::open) continue;
-    const Contact& k = c.contact;
-    state.contacts.push_back({k.body_a, k.body_b, k.part_a, k.part_b, k.feature, c.mode, c.sticks, c.restitution > 0.0,
-                              c.impulse[0], c.impulse[1]});
-  }
+  const StepReport summary = summary_of(parts);
+  advance(scene, h, state, parts);
   if (report) {
-    *report = {worst.status, worst.residual, num_islands, worst.factorisations, {}, std::move(report->contacts)};
+    std::vector<ContactRecord> contacts = std::move(report->contacts);  // its memory
+    *report = summary;
+    report->contacts = std::move(contacts);
     fill_report(scene, h, state, parts, *report);
-    report->energy.created = worst.created;
   }
-  return worst.status;
+  return summary.status;
 }
 
 }  // namespace tumble
