@@ -91,26 +91,22 @@ void forget_bodies(Parts& parts) {
 }
 
 void step_islands(double h, const StepSettings& settings, Parts& parts) {
-  parts.island_begin.assign(1, 0);
-  parts.island_contact.clear();
-  if (parts.contacts.empty()) return;
-  do {
-    do {
-      find_islands(parts);
-      for_islands(parts, [&](IslandContacts contacts, IslandOutcome& outcome) {
-        bool is_new = false;
-        for (const int c : contacts) {
-          is_new = is_new || parts.contacts[static_cast<Index>(c)].is_new;
-          parts.contacts[static_cast<Index>(c)].is_new = false;
-        }
-        if (is_new) outcome = step_island(parts, contacts, h, settings);
-      });
-    } while (list_overrun(h, parts));
-    for_islands(parts, [&](IslandContacts contacts, IslandOutcome& outcome) {
-      if (outcome.has_moved) separate(parts, contacts, h, settings, outcome.lost);
-      outcome.has_moved = false;
-    });
-  } while (list_overrun(h, parts));
+  find_islands(parts);
+  for_islands(parts, [&](IslandContacts contacts, IslandOutcome& outcome) {
+    bool is_new = false;
+    for (const int c : contacts) {
+      is_new = is_new || parts.contacts[static_cast<Index>(c)].is_new;
+      parts.contacts[static_cast<Index>(c)].is_new = false;
+    }
+    if (is_new) outcome = step_island(parts, contacts, h, settings);
+  });
+}
+
+void separate_islands(double h, const StepSettings& settings, Parts& parts) {
+  for_islands(parts, [&](IslandContacts contacts, IslandOutcome& outcome) {
+    if (outcome.has_moved) separate(parts, contacts, h, settings, outcome.lost);
+    outcome.has_moved = false;
+  });
 }
 
 }  // namespace tumble

@@ -282,15 +282,28 @@ bool may_end_inside(double h, Parts& parts, const Contact& pair) {
   return least_gap_at_end(h, parts, pair) < -deep * size_of_pair(parts, pair).radius;
 }
 
-// The contacts are in the order of their ids.
-bool has_listed(const Parts& parts, const Contact& pair) {
+// Those of one pair, of contacts in the order of their ids.
+std::span<const StepContact> contacts_of_pair(const std::vector<StepContact>& contacts, const Contact& pair) {
   const auto first =
-      std::lower_bound(parts.contacts.begin(), parts.contacts.end(), pair,
+      std::lower_bound(contacts.begin(), contacts.end(), pair,
                        [](const StepContact& c, const Contact& p) { return pair_of(c.contact) < pair_of(p); });
-  for (auto c = first; c != parts.contacts.end() && is_of_pair(c->contact, pair); ++c) {
-    if (c->is_listed) return true;
-  }
-  return false;
+  auto end = first;
+  while (end != contacts.end() && is_of_pair(end->contact, pair)) ++end;
+  return {first, end};
+}
+
+bool has_listed(const Parts& parts, const Contact& pair) {
+  const auto contacts = contacts_of_pair(parts.contacts, pair);
+  return std::any_of(contacts.begin(), contacts.end(), [](const StepContact& c) { return c.is_listed; });
+}
+
+// Both in the order of their ids.
+void merge_into(std::vector<StepContact>& contacts, const std::vector<StepContact>& more,
+                std::vector<StepContact>& scratch) {
+  scratch.clear();
+  std::merge(contacts.begin(), contacts.end(), more.begin(), more.end(), std::back_inserter(scratch),
+             [](const StepContact& c, const StepContact& d) { return key_of(c.contact) < key_of(d.contact); });
+  contacts.swap(scratch);
 }
 
 // The part of the way that two parts which touch can go, turning far, before one is deep inside the other: they would
@@ -375,17 +388,18 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
     append_contacts_ahead(scene, h, parts, pair, parts.way_velocity, added);
   }
   if (added.empty()) return false;
-  std::erase_if(parts.contacts, [&](const StepContact& c) {
-    return std::any_of(added.begin(), added.end(), [&](const auto& d) { return is_of_pair(c.contact, d.contact); });
-  });
   for (StepContact& c : added) {
     set_motion(parts, h, c);
     recall(nullptr, h, c);
     c.is_listed = c.is_new = true;
   }
-  parts.contacts.insert(parts.contacts.end(), added.begin(), added.end());
-  std::sort(parts.contacts.begin(), parts.contacts.end(),
-            [](const auto& c, const auto& d) { return key_of(c.contact) < key_of(d.contact); });
+  // They take the place of those of the same pairs; all are in the order of their ids.
+  Index next = 0;
+  std::erase_if(parts.contacts, [&](const StepContact& c) {
+    while (next < added.size() && pair_of(added[next].contact) < pair_of(c.contact)) ++next;
+    return next < added.size() && is_of_pair(added[next].contact, c.contact);
+  });
+  merge_into(parts.contacts, added, parts.last_contacts);
   return true;
 }
 
@@ -405,31 +419,21 @@ void stop_at_impacts(double h, Parts& parts) {
 }
 
 void look_further(const Scene& scene, double h, const State& state, Parts& parts) {
-  std::swap(parts.contacts, parts.last_contacts);
+  constexpr double same_side = 0.99;  // cosine
+  std::vector<StepContact>& kept = parts.last_contacts;
+  kept.clear();
+  for (const StepContact& c : parts.contacts) {
+    if (has_listed(parts, c.contact)) kept.push_back(c);
+  }
   prepare_contacts(scene, h, state, parts);
-  const auto is_listed = [](const StepContact& c) { return c.is_listed; };
-  auto num_lost = std::count_if(parts.last_contacts.begin(), parts.last_contacts.end(), is_listed);
-  Index next = 0;
-  for (Index i = 0; i < parts.contacts.size(); ++i) {
-    StepContact& c = parts.contacts[i];
-    while (next < parts.last_contacts.size() && key_of(parts.last_contacts[next].contact) < key_of(c.contact)) ++next;
-    if (next == parts.last_contacts.size()) break;
-    const StepContact& last = parts.last_contacts[next];
-    const Vector2 turn = last.contact.normal - c.contact.normal;
-    if (key_of(last.contact) != key_of(c.contact) || last.is_ahead != c.is_ahead || turn.x != 0.0 || turn.y != 0.0)
-      continue;
-    if (last.is_listed) --num_lost;
-    c = last;
-    ++next;
-  }
-  if (num_lost == 0) return;
-  // A pair of bodies is seen otherwise from further away: all start over.
-  for (StepContact& c : parts.contacts) c.is_new = c.is_listed;
-  for (Index i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].kind != BodyKind::dynamic) continue;
-    parts.next_velocity[i] = parts.force_velocity[i] = parts.free_velocity[i];
-    for (Index j = 0; j < 3; ++j) parts.travel[i][j] = h * parts.middle_velocity[i][j];
-  }
+  std::erase_if(parts.contacts, [&](const StepContact& c) {
+    const auto pair = contacts_of_pair(kept, c.contact);
+    return std::any_of(pair.begin(), pair.end(), [&](const StepContact& d) {
+      return c.is_ahead || d.is_ahead || key_of(c.contact) == key_of(d.contact) ||
+             dot(c.contact.normal, d.contact.normal) < same_side;
+    });
+  });
+  merge_into(parts.contacts, kept, parts.added);
 }
 
 double bend_of_way(const Parts& parts, const Contact& contact, double h) {

@@ -118,8 +118,8 @@ struct StepWorkspace::Parts {
 // The contacts in reach, with what is known of them before anything is solved, in the order of their ids.
 void prepare_contacts(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
 
-// The same once islands were stepped, where bodies may go further than thought at first. Islands whose contacts stay
-// the same keep their motion.
+// The same once islands were stepped, where bodies may go further than thought at first. Pairs that take part in the
+// motion found keep their contacts: from further away they may be seen otherwise.
 void look_further(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
 
 // [m] What turning and curved surfaces add to the gap in the step, to second order, where the two bodies move by the
@@ -138,8 +138,11 @@ bool add_contacts_on_way(const Scene& scene, double step_size, StepWorkspace::Pa
 // Shortens the ways of bodies that would still run, or turn, through each other, so that they end before.
 void stop_at_impacts(double step_size, StepWorkspace::Parts& parts);
 
-// The motion of all islands, and the contacts that they reach. Islands whose contacts stay the same keep theirs.
+// The motion of all islands. Those whose contacts are the same as before keep theirs.
 void step_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);
+
+// Takes the bodies of islands that were stepped out of what they would overlap.
+void separate_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);
 
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
 

@@ -105,6 +105,18 @@ bool is_within_reach(Parts& parts) {
   return is_within;
 }
 
+// Looks for contacts that the motion found would run through, where it takes bodies elsewhere than thought before. False
+// if the contacts are the same as before.
+bool find_more_contacts(const Scene& scene, double h, const State& state, Parts& parts, int& looks) {
+  const bool may_look = looks < k_max_looks;
+  const bool is_within = !may_look || is_within_reach(parts);
+  if (!is_within) look_further(scene, h, state, parts);
+  const bool has_overrun = list_overrun(h, parts);
+  const bool meets = may_look && add_contacts_on_way(scene, h, parts);
+  looks += !is_within || meets ? 1 : 0;
+  return !is_within || has_overrun || meets;
+}
+
 void fill_report(const Scene& scene, double h, const State& state, Parts& parts, StepReport& report) {
   EnergyLedger& energy = report.energy;
   report.contacts.clear();
@@ -228,13 +240,13 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
   Parts& parts = workspace.parts();
   predict(scene, h, state, parts);
   prepare_contacts(scene, h, state, parts);
-  for (int look = 1;; ++look) {
-    step_islands(h, settings, parts);
-    for (int more = 0; more < k_max_looks && add_contacts_on_way(scene, h, parts); ++more)
+  int looks = 0;
+  do {
+    do {
       step_islands(h, settings, parts);
-    if (is_within_reach(parts) || look == k_max_looks) break;
-    look_further(scene, h, state, parts);
-  }
+    } while (find_more_contacts(scene, h, state, parts, looks));
+    separate_islands(h, settings, parts);
+  } while (find_more_contacts(scene, h, state, parts, looks));
   stop_at_impacts(h, parts);
   const StepReport summary = summary_of(parts);
   advance(scene, h, state, parts);
