@@ -102,6 +102,12 @@ ShapeSize size_of_pair(const Parts& parts, const Contact& pair) {
   return {std::min(a.radius, b.radius), std::max(a.thickness, b.thickness)};
 }
 
+// All contacts in reach of the two bodies are known.
+bool is_looked_at(const Parts& parts, const Contact& pair) {
+  const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
+  return parts.reach[a] <= parts.reach_looked_at[a] && parts.reach[b] <= parts.reach_looked_at[b];
+}
+
 // Bodies apart that may go so far in the step, against their sizes, that where they are closest at its start tells
 // little about where, and whether, they meet.
 bool is_fast(const Parts& parts, std::span<const Contact> pair) {
@@ -330,14 +336,21 @@ double share_before_depth(double h, Parts& parts, const Contact& pair) {
   return 1.0;
 }
 
-void shorten_way(Parts& parts, const Contact& pair, double share) {
-  for (const int body : {pair.body_a, pair.body_b}) {
-    if (!(parts.inverse_mass[static_cast<Index>(body)][0] > 0.0)) continue;
-    for (double& way : parts.travel[static_cast<Index>(body)]) way *= share;
-  }
+void shorten_way(Parts& parts, Index body, double share) {
+  if (!(parts.inverse_mass[body][0] > 0.0)) return;
+  for (double& way : parts.travel[body]) way *= share;
+}
+
+void shorten_ways(Parts& parts, const Contact& pair, double share) {
+  for (const int body : {pair.body_a, pair.body_b}) shorten_way(parts, static_cast<Index>(body), share);
 }
 
 }  // namespace
+
+double way_of(const Parts& parts, std::size_t body) {
+  const Vector3& d = parts.travel[body];
+  return std::sqrt(d[0] * d[0] + d[1] * d[1]) + std::abs(d[2]) * parts.radius[body];
+}
 
 double least_gap_at_end(double h, Parts& parts, const Contact& pair) {
   set_way_velocity(h, parts, pair);
@@ -347,13 +360,16 @@ double least_gap_at_end(double h, Parts& parts, const Contact& pair) {
   return least;
 }
 
-void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
+namespace {
+
+// Appends the contacts in reach of pairs of which one body may go further than when they were last looked for.
+void find_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   const std::vector<Contact>& found = parts.finder.find(parts.poses, parts.reach);
   parts.contacts.clear();
-  parts.fast_pairs.clear();
   for (Index begin = 0, end = 0; begin < found.size(); begin = end) {
     while (end < found.size() && is_of_pair(found[end], found[begin])) ++end;
     const std::span<const Contact> pair = std::span(found).subspan(begin, end - begin);
+    if (is_looked_at(parts, pair.front())) continue;
     const double round_off = position_round_off(parts, pair.front());
     const auto passing = find_passing(h, parts, pair, round_off);
     if (!passing && is_fast(parts, pair)) {
@@ -377,6 +393,15 @@ void prepare_contacts(const Scene& scene, double h, const State& state, Parts& p
     const bool is_known = next < state.contacts.size() && key_of(state.contacts[next]) == key_of(c.contact);
     recall(is_known ? &state.contacts[next] : nullptr, h, c);
   }
+  parts.reach_looked_at = parts.reach;
+}
+
+}  // namespace
+
+void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
+  parts.fast_pairs.clear();
+  parts.reach_looked_at.assign(scene.bodies.size(), -1.0);
+  find_contacts(scene, h, state, parts);
 }
 
 bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
@@ -404,17 +429,22 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
 }
 
 void stop_at_impacts(double h, Parts& parts) {
+  // Further than contacts were looked for, nothing is known to be free.
+  for (Index i = 0; i < parts.travel.size(); ++i) {
+    const double way = way_of(parts, i);
+    if (way > parts.reach[i]) shorten_way(parts, i, parts.reach[i] / way);
+  }
   for (FastPair& pair : parts.fast_pairs) {
     const Contact& c = pair.nearest;
     set_way_velocity(h, parts, c);
     if (has_listed(parts, c) && !may_end_inside(h, parts, c)) continue;
     const auto impact = find_impact(h, parts, pair, parts.way_velocity);
-    if (impact) shorten_way(parts, c, impact->time / h);
+    if (impact) shorten_ways(parts, c, impact->time / h);
   }
   for (const StepContact& c : parts.contacts) {
     if (!c.is_listed || c.is_ahead) continue;
     const double share = share_before_depth(h, parts, c.contact);
-    if (share < 1.0) shorten_way(parts, c.contact, share);
+    if (share < 1.0) shorten_ways(parts, c.contact, share);
   }
 }
 
@@ -423,9 +453,12 @@ void look_further(const Scene& scene, double h, const State& state, Parts& parts
   std::vector<StepContact>& kept = parts.last_contacts;
   kept.clear();
   for (const StepContact& c : parts.contacts) {
-    if (has_listed(parts, c.contact)) kept.push_back(c);
+    if (is_looked_at(parts, c.contact) || has_listed(parts, c.contact)) kept.push_back(c);
   }
-  prepare_contacts(scene, h, state, parts);
+  std::erase_if(parts.fast_pairs, [&](const FastPair& pair) { return !is_looked_at(parts, pair.nearest); });
+  find_contacts(scene, h, state, parts);
+  std::sort(parts.fast_pairs.begin(), parts.fast_pairs.end(),
+            [](const FastPair& p, const FastPair& q) { return pair_of(p.nearest) < pair_of(q.nearest); });
   std::erase_if(parts.contacts, [&](const StepContact& c) {
     const auto pair = contacts_of_pair(kept, c.contact);
     return std::any_of(pair.begin(), pair.end(), [&](const StepContact& d) {

@@ -88,7 +88,8 @@ struct StepWorkspace::Parts {
 
   // Of a step, per body.
   std::vector<Pose> poses;
-  std::vector<double> reach;             // [m]
+  std::vector<double> reach;             // [m] how far it may go
+  std::vector<double> reach_looked_at;   // the same when contacts were last looked for; < 0: never
   std::vector<Vector3> velocity;         // at the start; of kinematic bodies, their mean during the step
   std::vector<Vector3> force;            // F_x, F_y, torque: gravity and wrench [N, N m]
   std::vector<Vector3> wrench;           // the wrench alone
@@ -134,6 +135,9 @@ bool list_overrun(double step_size, StepWorkspace::Parts& parts);
 
 // Adds the contacts of fast bodies that the motion found would run through. False if there are none.
 bool add_contacts_on_way(const Scene& scene, double step_size, StepWorkspace::Parts& parts);
+
+// [m] How far the travel found takes any point of the body, at most.
+double way_of(const StepWorkspace::Parts& parts, std::size_t body);
 
 // Shortens the ways of bodies that would still run, or turn, through each other, so that they end before.
 void stop_at_impacts(double step_size, StepWorkspace::Parts& parts);

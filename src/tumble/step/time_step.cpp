@@ -17,7 +17,7 @@ using Parts = StepWorkspace::Parts;
 
 // The body may be pushed a little within a step without a second look for contacts: [-] of its size.
 constexpr double k_slack = 0.005;
-constexpr int k_max_looks = 8;
+constexpr int k_max_looks = 30;
 
 bool is_finite(const BodyState& b) {
   // 0 times a number is 0 only if that is finite.
@@ -94,11 +94,9 @@ bool is_within_reach(Parts& parts) {
     for (const int body : {rows.body_a, rows.body_b}) {
       if (body < 0) continue;
       const auto b = static_cast<Index>(body);
-      const Vector3& d = parts.travel[b];
-      const double turn = std::abs(d[2]) * parts.radius[b], left = parts.reach[b] - turn;
-      const double square = d[0] * d[0] + d[1] * d[1];
-      if (left >= 0.0 && square <= left * left) continue;
-      parts.reach[b] = 2.0 * (std::sqrt(square) + turn);
+      const double way = way_of(parts, b);
+      if (way <= parts.reach[b]) continue;
+      parts.reach[b] = 2.0 * way;
       is_within = false;
     }
   }
