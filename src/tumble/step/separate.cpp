@@ -71,8 +71,9 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
     }
     // Bodies that meet on their way may turn by much after it: their shapes are looked at where they end.
     c.way_bend = 0.0;
-    if (c.mode != ContactMode::open)
-      c.way_bend = std::min(0.0, least_gap_at_end(h, parts, c.contact) - gap_after(parts, c, h));
+    if (c.mode == ContactMode::open) continue;
+    set_way_velocity(h, parts, c.contact);
+    c.way_bend = std::min(0.0, least_gap_at(parts, c.contact, parts.way_velocity, h) - gap_after(parts, c, h));
   }
   const bool has_overlap = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
     double size = 0.0;

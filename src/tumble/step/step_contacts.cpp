@@ -9,7 +9,6 @@
 #include "tumble/geometry/gap_rate.hpp"
 #include "tumble/geometry/pair_contacts.hpp"
 #include "tumble/geometry/passing_contact.hpp"
-#include "tumble/geometry/time_of_impact.hpp"
 #include "tumble/step/step_parts.hpp"
 
 namespace tumble {
@@ -18,8 +17,7 @@ namespace {
 using Index = std::size_t;
 using Parts = StepWorkspace::Parts;
 
-constexpr double k_fast = 0.25;      // [-] of the radius of the smaller part: longer ways are long
-constexpr double k_touching = 1e-6;  // [-] of the same: parts that are nearer touch
+constexpr double k_fast = 0.25;  // [-] of the radius of the smaller part: longer ways are long
 
 bool is_dynamic(const Scene& scene, int body) {
   return scene.bodies[static_cast<Index>(body)].kind == BodyKind::dynamic;
@@ -95,13 +93,6 @@ double position_round_off(const Parts& parts, const Contact& contact) {
   return round_off * std::max(size(contact.body_a), size(contact.body_b));
 }
 
-// The smaller sizes of the two parts.
-ShapeSize size_of_pair(const Parts& parts, const Contact& pair) {
-  const ShapeSize& a = parts.sizes[static_cast<Index>(pair.body_a)][static_cast<Index>(pair.part_a)];
-  const ShapeSize& b = parts.sizes[static_cast<Index>(pair.body_b)][static_cast<Index>(pair.part_b)];
-  return {std::min(a.radius, b.radius), std::max(a.thickness, b.thickness)};
-}
-
 // All contacts in reach of the two bodies are known.
 bool is_looked_at(const Parts& parts, const Contact& pair) {
   const auto a = static_cast<Index>(pair.body_a), b = static_cast<Index>(pair.body_b);
@@ -172,26 +163,6 @@ void recall(const ContactMemory* memory, double h, StepContact& c) {
       memory || c.gap + c.bend + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
 }
 
-// When the two parts first meet while their bodies move with these velocities.
-std::optional<Impact> find_impact(double h, Parts& parts, FastPair& pair, const std::vector<Vector3>& velocity) {
-  const Contact& c = pair.nearest;
-  const auto a = static_cast<Index>(c.body_a), b = static_cast<Index>(c.body_b);
-  const std::array<Vector3, 2> velocities = {velocity[a], velocity[b]};
-  if (pair.misses && velocities == pair.missing_velocity) return std::nullopt;
-  const double distance = k_touching * size_of_pair(parts, c).radius;
-  const double apart = time_apart(parts.finder.shape(c.body_a, c.part_a), velocity[a],
-                                  parts.finder.shape(c.body_b, c.part_b), velocity[b], c.normal, h, 0.5 * distance);
-  std::optional<Impact> impact;
-  if (apart < h) {
-    impact = time_of_impact(parts.finder.moved(c.body_a, c.part_a), parts.poses[a], velocity[a],
-                            parts.finder.moved(c.body_b, c.part_b), parts.poses[b], velocity[b], apart, h, distance,
-                            parts.points);
-  }
-  pair.misses = !impact;
-  pair.missing_velocity = velocities;
-  return impact;
-}
-
 // Of point_b seen from point_a.
 Vector2 relative_velocity(const Parts& parts, const Contact& contact, const std::vector<Vector3>& velocity) {
   const auto velocity_at = [&](int body, Vector2 point) {
@@ -221,20 +192,6 @@ std::optional<Contact> find_passing(double h, const Parts& parts, std::span<cons
   const Vector2 pressed = relative_velocity(parts, nearest, parts.free_velocity) - velocity;
   if (better->gap <= tolerance && !(dot(better->normal, pressed) < 0.0)) return std::nullopt;
   return Contact{*better, nearest.body_a, nearest.body_b, nearest.part_a, nearest.part_b};
-}
-
-// The contacts of two parts at a time of the step, their bodies moving with these velocities.
-void find_contacts_at(Parts& parts, const Contact& pair, const std::vector<Vector3>& velocity, double time,
-                      double reach) {
-  const auto moved = [&](int body, int part) -> const PlacedShape& {
-    const auto b = static_cast<Index>(body);
-    const Vector3& v = velocity[b];
-    MovedShape& shape = parts.finder.moved(body, part);
-    shape.move_to({parts.poses[b].position + time * Vector2{v[0], v[1]}, parts.poses[b].angle + time * v[2]});
-    return shape.placed();
-  };
-  parts.points.clear();
-  append_sorted_contacts(moved(pair.body_a, pair.part_a), moved(pair.body_b, pair.part_b), reach, parts.points);
 }
 
 // Appends the contacts that two parts have where they first meet when their bodies move with these velocities. The gap
@@ -268,26 +225,6 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair&
   }
 }
 
-// The velocities that take the two bodies where they were found to go.
-void set_way_velocity(double h, Parts& parts, const Contact& pair) {
-  for (const int body : {pair.body_a, pair.body_b}) {
-    const auto b = static_cast<Index>(body);
-    parts.way_velocity[b] = parts.velocity[b];
-    if (!(parts.inverse_mass[b][0] > 0.0)) continue;
-    for (Index j = 0; j < 3; ++j) parts.way_velocity[b][j] = parts.travel[b][j] / h;
-  }
-}
-
-// Bodies that turn fast run into each other although the places that touched first are held apart.
-bool may_end_inside(double h, Parts& parts, const Contact& pair) {
-  constexpr double deep = 0.01;   // [-] of the radius
-  constexpr double large = 0.25;  // [rad] after such turns they may also end on the other side of each other
-  for (const int body : {pair.body_a, pair.body_b}) {
-    if (std::abs(parts.travel[static_cast<Index>(body)][2]) > large) return true;
-  }
-  return least_gap_at_end(h, parts, pair) < -deep * size_of_pair(parts, pair).radius;
-}
-
 // Those of one pair, of contacts in the order of their ids.
 std::span<const StepContact> contacts_of_pair(const std::vector<StepContact>& contacts, const Contact& pair) {
   const auto first =
@@ -298,11 +235,6 @@ std::span<const StepContact> contacts_of_pair(const std::vector<StepContact>& co
   return {first, end};
 }
 
-bool has_listed(const Parts& parts, const Contact& pair) {
-  const auto contacts = contacts_of_pair(parts.contacts, pair);
-  return std::any_of(contacts.begin(), contacts.end(), [](const StepContact& c) { return c.is_listed; });
-}
-
 // Both in the order of their ids.
 void merge_into(std::vector<StepContact>& contacts, const std::vector<StepContact>& more,
                 std::vector<StepContact>& scratch) {
@@ -311,56 +243,6 @@ void merge_into(std::vector<StepContact>& contacts, const std::vector<StepContac
              [](const StepContact& c, const StepContact& d) { return key_of(c.contact) < key_of(d.contact); });
   contacts.swap(scratch);
 }
-
-// The part of the way that two parts which touch can go, turning far, before one is deep inside the other: they would
-// come out on the other side.
-double share_before_depth(double h, Parts& parts, const Contact& pair) {
-  constexpr double part = 0.25;  // [rad], and [-] of the radius: of the way between two looks, and of the depth
-  constexpr double most_looks = 1000.0;
-  const double radius = size_of_pair(parts, pair).radius;
-  set_way_velocity(h, parts, pair);
-  double turn = 0.0, way = 0.0;
-  for (const int body : {pair.body_a, pair.body_b}) {
-    const Vector3& travel = parts.travel[static_cast<Index>(body)];
-    turn = std::max(turn, std::abs(travel[2]));
-    way += length(Vector2{travel[0], travel[1]});
-  }
-  if (turn <= part) return 1.0;
-  const double looks = std::min(most_looks, std::ceil(std::max(turn / part, way / (part * radius))));
-  for (double look = 1.0; look <= looks; ++look) {
-    find_contacts_at(parts, pair, parts.way_velocity, look / looks * h, 0.0);
-    for (const ContactPoint& point : parts.points) {
-      if (point.gap < -part * radius) return (look - 1.0) / looks;
-    }
-  }
-  return 1.0;
-}
-
-void shorten_way(Parts& parts, Index body, double share) {
-  if (!(parts.inverse_mass[body][0] > 0.0)) return;
-  for (double& way : parts.travel[body]) way *= share;
-}
-
-void shorten_ways(Parts& parts, const Contact& pair, double share) {
-  for (const int body : {pair.body_a, pair.body_b}) shorten_way(parts, static_cast<Index>(body), share);
-}
-
-}  // namespace
-
-double way_of(const Parts& parts, std::size_t body) {
-  const Vector3& d = parts.travel[body];
-  return std::sqrt(d[0] * d[0] + d[1] * d[1]) + std::abs(d[2]) * parts.radius[body];
-}
-
-double least_gap_at_end(double h, Parts& parts, const Contact& pair) {
-  set_way_velocity(h, parts, pair);
-  find_contacts_at(parts, pair, parts.way_velocity, h, 0.0);
-  double least = HUGE_VAL;
-  for (const ContactPoint& point : parts.points) least = std::min(least, point.gap);
-  return least;
-}
-
-namespace {
 
 // Appends the contacts in reach of pairs of which one body may go further than when they were last looked for.
 void find_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
@@ -398,6 +280,11 @@ void find_contacts(const Scene& scene, double h, const State& state, Parts& part
 
 }  // namespace
 
+bool has_listed(const Parts& parts, const Contact& pair) {
+  const auto contacts = contacts_of_pair(parts.contacts, pair);
+  return std::any_of(contacts.begin(), contacts.end(), [](const StepContact& c) { return c.is_listed; });
+}
+
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   parts.fast_pairs.clear();
   parts.reach_looked_at.assign(scene.bodies.size(), -1.0);
@@ -426,26 +313,6 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
   });
   merge_into(parts.contacts, added, parts.last_contacts);
   return true;
-}
-
-void stop_at_impacts(double h, Parts& parts) {
-  // Further than contacts were looked for, nothing is known to be free.
-  for (Index i = 0; i < parts.travel.size(); ++i) {
-    const double way = way_of(parts, i);
-    if (way > parts.reach[i]) shorten_way(parts, i, parts.reach[i] / way);
-  }
-  for (FastPair& pair : parts.fast_pairs) {
-    const Contact& c = pair.nearest;
-    set_way_velocity(h, parts, c);
-    if (has_listed(parts, c) && !may_end_inside(h, parts, c)) continue;
-    const auto impact = find_impact(h, parts, pair, parts.way_velocity);
-    if (impact) shorten_ways(parts, c, impact->time / h);
-  }
-  for (const StepContact& c : parts.contacts) {
-    if (!c.is_listed || c.is_ahead) continue;
-    const double share = share_before_depth(h, parts, c.contact);
-    if (share < 1.0) shorten_ways(parts, c.contact, share);
-  }
 }
 
 void look_further(const Scene& scene, double h, const State& state, Parts& parts) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "tumble/geometry/detect_contacts.hpp"
 #include "tumble/geometry/gap_rate.hpp"
 #include "tumble/geometry/shape_size.hpp"
+#include "tumble/geometry/time_of_impact.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/step/step_report.hpp"
 #include "tumble/step/time_step.hpp"
@@ -74,6 +76,9 @@ struct FastPair {
   std::array<Vector3, 2> missing_velocity{};  // of a and b, with which they are known not to meet
 };
 
+// [-] of the radius of the smaller part: parts that are nearer touch.
+inline constexpr double k_touching = 1e-6;
+
 struct StepWorkspace::Parts {
   explicit Parts(const Scene& scene);
 
@@ -98,6 +103,7 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> next_velocity;
   std::vector<Vector3> force_velocity;  // after the forces and the first impacts: forces work along its mean with v
   std::vector<Vector3> travel;          // x, y, angle
+  std::vector<bool> is_stopped;         // on its way
   std::vector<Vector3> shift;           // what `separate` adds to it
 
   // Contacts, island by island.
@@ -116,6 +122,34 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> way_velocity;         // of the LCP for the way
 };
 
+// Two parts on the ways of their bodies.
+
+// The smaller sizes of the two.
+ShapeSize size_of_pair(const StepWorkspace::Parts& parts, const Contact& pair);
+
+// [m] How far the travel found takes any point of the body, at most.
+double way_of(const StepWorkspace::Parts& parts, std::size_t body);
+
+// Sets parts.way_velocity of the two bodies to what takes them where they were found to go.
+void set_way_velocity(double step_size, StepWorkspace::Parts& parts, const Contact& pair);
+
+// Sets parts.points to the contacts that they have at a time of the step, moving with these velocities.
+void find_contacts_at(StepWorkspace::Parts& parts, const Contact& pair, const std::vector<Vector3>& velocity,
+                      double time, double reach);
+
+// [m] There: below 0 where they overlap, else infinite.
+double least_gap_at(StepWorkspace::Parts& parts, const Contact& pair, const std::vector<Vector3>& velocity,
+                    double time);
+
+// When they first meet while their bodies move with these velocities.
+std::optional<Impact> find_impact(double step_size, StepWorkspace::Parts& parts, FastPair& pair,
+                                  const std::vector<Vector3>& velocity);
+
+// Contacts of a step.
+
+// Whether contacts of the pair take part in the motion.
+bool has_listed(const StepWorkspace::Parts& parts, const Contact& pair);
+
 // The contacts in reach, with what is known of them before anything is solved, in the order of their ids.
 void prepare_contacts(const Scene& scene, double step_size, const State& state, StepWorkspace::Parts& parts);
 
@@ -127,17 +161,11 @@ void look_further(const Scene& scene, double step_size, const State& state, Step
 // travel found, which impacts may have changed; 0 where that says little.
 double bend_of_way(const StepWorkspace::Parts& parts, const Contact& contact, double step_size);
 
-// [m] Of two parts where their bodies end with the travel found: below 0 where they overlap, else infinite.
-double least_gap_at_end(double step_size, StepWorkspace::Parts& parts, const Contact& pair);
-
 // Lists contacts that the motion found would overrun. False if there are none.
 bool list_overrun(double step_size, StepWorkspace::Parts& parts);
 
 // Adds the contacts of fast bodies that the motion found would run through. False if there are none.
 bool add_contacts_on_way(const Scene& scene, double step_size, StepWorkspace::Parts& parts);
-
-// [m] How far the travel found takes any point of the body, at most.
-double way_of(const StepWorkspace::Parts& parts, std::size_t body);
 
 // Shortens the ways of bodies that would still run, or turn, through each other, so that they end before.
 void stop_at_impacts(double step_size, StepWorkspace::Parts& parts);

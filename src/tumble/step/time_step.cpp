@@ -103,8 +103,8 @@ bool is_within_reach(Parts& parts) {
   return is_within;
 }
 
-// Looks for contacts that the motion found would run through, where it takes bodies elsewhere than thought before. False
-// if the contacts are the same as before.
+// Looks for contacts that the motion found would run through, where it takes bodies elsewhere than thought before.
+// False if the contacts are the same as before.
 bool find_more_contacts(const Scene& scene, double h, const State& state, Parts& parts, int& looks) {
   const bool may_look = looks < k_max_looks;
   const bool is_within = !may_look || is_within_reach(parts);
