@@ -14,7 +14,7 @@ using Parts = StepWorkspace::Parts;
 constexpr double k_deep = 0.01;        // [-] of the radius of the smaller part
 constexpr double k_other_side = 0.25;  // [-] of the same: as deep, parts may come out on the other side of each other
 constexpr double k_far_turn = 0.25;    // [rad]: they may do so without having been deep where the step ends
-constexpr int k_max_follower_rounds = 20;
+constexpr int k_max_rounds = 20;
 
 // The part of their way that two parts can go before one is deeper inside the other than at the start, by `depth` [m].
 double share_before_depth(double h, Parts& parts, const Contact& pair, double depth) {
@@ -59,6 +59,21 @@ void stop_fast_turn(double h, Parts& parts, const Contact& pair) {
     shorten_ways(parts, pair, share_before_depth(h, parts, pair, depth));
 }
 
+// Fast bodies that nothing holds apart. True if one had to stop.
+bool stop_where_they_meet(double h, Parts& parts) {
+  constexpr double late = 1.0 - 1e-6;  // [-] of the step: they have stopped there
+  bool has_stopped = false;
+  for (FastPair& pair : parts.fast_pairs) {
+    if (has_listed(parts, pair.nearest)) continue;
+    set_way_velocity(h, parts, pair.nearest);
+    const auto impact = find_impact(h, parts, pair, parts.way_velocity);
+    if (!impact) continue;
+    shorten_ways(parts, pair.nearest, impact->time / h);
+    has_stopped = has_stopped || impact->time < late * h;
+  }
+  return has_stopped;
+}
+
 // Bodies that go on towards one that has stopped. True if one had to stop.
 bool stop_followers(double h, Parts& parts) {
   bool has_stopped = false;
@@ -90,22 +105,17 @@ void stop_at_impacts(double h, Parts& parts) {
     const double way = way_of(parts, i);
     if (way > parts.reach[i]) shorten_way(parts, i, parts.reach[i] / way);
   }
-  for (FastPair& pair : parts.fast_pairs) {
-    if (has_listed(parts, pair.nearest)) {
-      stop_fast_turn(h, parts, pair.nearest);
-      continue;
-    }
-    set_way_velocity(h, parts, pair.nearest);
-    const auto impact = find_impact(h, parts, pair, parts.way_velocity);
-    if (impact) shorten_ways(parts, pair.nearest, impact->time / h);
+  for (const FastPair& pair : parts.fast_pairs) {
+    if (has_listed(parts, pair.nearest)) stop_fast_turn(h, parts, pair.nearest);
   }
   for (const StepContact& c : parts.contacts) {
     if (!c.is_listed || c.is_ahead || !turns_far(parts, c.contact)) continue;
     const double depth = k_other_side * size_of_pair(parts, c.contact).radius;
     shorten_ways(parts, c.contact, share_before_depth(h, parts, c.contact, depth));
   }
-  if (std::find(parts.is_stopped.begin(), parts.is_stopped.end(), true) == parts.is_stopped.end()) return;
-  for (int round = 0; round < k_max_follower_rounds && stop_followers(h, parts); ++round) {
+  for (int round = 0; round < k_max_rounds; ++round) {
+    const bool has_met = stop_where_they_meet(h, parts), has_followed = stop_followers(h, parts);
+    if (!has_met && !has_followed) break;
   }
 }
 
