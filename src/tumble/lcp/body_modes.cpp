@@ -58,7 +58,7 @@ void BodyModes::load(const ContactSystem& system) {
       block.tt += response(tangent, tangent, inverse_mass);
     });
     const auto [u_n, u_t] = velocity_at(c, system.velocity);
-    speed_ = std::max({speed_, std::abs(u_n), std::abs(u_t)});
+    speed_ = std::max({speed_, -u_n, std::abs(u_t)});
   }
 }
 
@@ -105,7 +105,7 @@ void BodyModes::find_contact_velocities() {
   for (Index i = 0; i < modes.size(); ++i) {
     const BodyContact& c = system_->contacts[i];
     double n = c.offset, t = c.tangent_offset;
-    double size_n = speed_, size_t = speed_;
+    double size_n = speed_ + std::abs(n), size_t = speed_ + std::abs(t);
     for_bodies(c, [&](Index b, const Vector3& normal, const Vector3& tangent) {
       const Vector3 &v = v_[b], &terms = terms_[b];
       for (Index j = 0; j < 3; ++j) {

@@ -50,8 +50,8 @@ class BodyModes {
 
   // How far impulses and velocities are from the contact laws, free of units: the largest of
   //   |min(A_nn f_n, u_n)| / s,   |A_tt (f_t - the point of the cone |f_t| <= mu f_n next to f_t - u_t / A_tt)| / s,
-  // s the largest speed at a contact before the impulses, and 1e-5 of the sizes of the terms that u is a sum of: where
-  // large impulses cancel, their rounding is forgiven, but no more.
+  // s the largest speed of approach or slip at a contact before the impulses, and 1e-5 of the sizes of the terms that u
+  // is a sum of: where large impulses cancel, their rounding is forgiven, but no more.
   double residual();
 
   int factorisations() const { return factorisations_; }  // since `load`
@@ -101,7 +101,7 @@ class BodyModes {
   int factorisations_ = 0;
   double ridge_ = 0.0;    // [-] of the diagonal of A
   bool is_near_ = false;  // in `run_near`
-  double speed_ = 0.0;    // largest at a contact before the impulses [m/s]
+  double speed_ = 0.0;    // largest of approach or slip before the impulses [m/s]
   std::vector<Vector3> mass_;
   std::vector<Block> response_;            // A of each contact
   std::vector<Vector3> v_, terms_, step_;  // terms_: the sizes of what v_ is a sum of

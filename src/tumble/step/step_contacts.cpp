@@ -147,8 +147,15 @@ void set_motion(const Parts& parts, double h, StepContact& c) {
   c.bend = bend_of(c.contact, motion_of(c.contact.body_a), motion_of(c.contact.body_b), h);
 }
 
+// Of bodies that both were held in the last step.
+bool is_near_in_crowd(const Parts& parts, const StepContact& c) {
+  constexpr double near = 0.5;  // [-] of how far they may go
+  const auto a = static_cast<Index>(c.contact.body_a), b = static_cast<Index>(c.contact.body_b);
+  return parts.was_held[a] && parts.was_held[b] && c.gap < near * (parts.reach[a] + parts.reach[b]);
+}
+
 // What the contact did in the last step, if there is memory of it.
-void recall(const ContactMemory* memory, double h, StepContact& c) {
+void recall(const ContactMemory* memory, double h, const Parts& parts, StepContact& c) {
   if (memory) {
     c.mode = memory->mode;
     c.was_closed = c.mode != ContactMode::open && !memory->has_bounced;
@@ -158,9 +165,9 @@ void recall(const ContactMemory* memory, double h, StepContact& c) {
     c.mode = h * c.free_speed[0] + c.gap + c.bend < 0.0 ? ContactMode::stick : ContactMode::open;
     c.has_stuck = c.speed[1] == 0.0;
   }
-  // Other contacts may push bodies together: those that they reach are listed then.
-  c.is_listed = c.is_new =
-      memory || c.gap + c.bend + h * std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0])) < 0.0;
+  // Other contacts may push bodies together: those that they reach are listed then, or at once in a crowd.
+  const double slower = std::min(c.free_speed[0], 0.5 * (c.speed[0] + c.free_speed[0]));
+  c.is_listed = c.is_new = memory || c.gap + c.bend + h * slower < 0.0 || is_near_in_crowd(parts, c);
 }
 
 // Of point_b seen from point_a.
@@ -273,7 +280,7 @@ void find_contacts(const Scene& scene, double h, const State& state, Parts& part
     set_motion(parts, h, c);
     while (next < state.contacts.size() && key_of(state.contacts[next]) < key_of(c.contact)) ++next;
     const bool is_known = next < state.contacts.size() && key_of(state.contacts[next]) == key_of(c.contact);
-    recall(is_known ? &state.contacts[next] : nullptr, h, c);
+    recall(is_known ? &state.contacts[next] : nullptr, h, parts, c);
   }
   parts.reach_looked_at = parts.reach;
 }
@@ -288,6 +295,10 @@ bool has_listed(const Parts& parts, const Contact& pair) {
 void prepare_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   parts.fast_pairs.clear();
   parts.reach_looked_at.assign(scene.bodies.size(), -1.0);
+  for (Index i = 0; i < scene.bodies.size(); ++i) parts.was_held[i] = scene.bodies[i].kind != BodyKind::dynamic;
+  for (const ContactMemory& c : state.contacts) {
+    parts.was_held[static_cast<Index>(c.body_a)] = parts.was_held[static_cast<Index>(c.body_b)] = true;
+  }
   find_contacts(scene, h, state, parts);
 }
 
@@ -302,7 +313,7 @@ bool add_contacts_on_way(const Scene& scene, double h, Parts& parts) {
   if (added.empty()) return false;
   for (StepContact& c : added) {
     set_motion(parts, h, c);
-    recall(nullptr, h, c);
+    recall(nullptr, h, parts, c);
     c.is_listed = c.is_new = true;
   }
   // They take the place of those of the same pairs; all are in the order of their ids.

@@ -95,6 +95,7 @@ struct StepWorkspace::Parts {
   std::vector<Pose> poses;
   std::vector<double> reach;             // [m] how far it may go
   std::vector<double> reach_looked_at;   // the same when contacts were last looked for; < 0: never
+  std::vector<bool> was_held;            // by contacts in the last step, or is not dynamic
   std::vector<Vector3> velocity;         // at the start; of kinematic bodies, their mean during the step
   std::vector<Vector3> force;            // F_x, F_y, torque: gravity and wrench [N, N m]
   std::vector<Vector3> wrench;           // the wrench alone

@@ -208,6 +208,7 @@ StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
   }
   poses.resize(n);
   reach.assign(n, 0.0);
+  was_held.assign(n, false);
   for (std::vector<Vector3>* values : {&velocity, &force, &wrench, &free_velocity, &middle_velocity, &next_velocity,
                                        &travel, &shift, &way_velocity, &force_velocity}) {
     values->assign(n, Vector3{});
