@@ -168,9 +168,7 @@ IslandSolution IslandSolver::solve(const IslandSettings& settings) {
     if (is_fast) {
       search.modes = modes;
       search.impulses = impulses;
-      for (int sweeps = 0; sweeps < settings.num_sweeps; sweeps += 2) {
-        if (search.sweep(std::min(2, settings.num_sweeps - sweeps)) <= k_fast_change) break;
-      }
+      search.sweep(settings.num_sweeps, k_fast_change);
       parts_->best_modes = search.modes;
       parts_->best_impulses = search.impulses;
       parts_->best_residual = search.residual();

@@ -139,11 +139,10 @@ double BodyModes::residual() {
   return largest;
 }
 
-double BodyModes::sweep(int num_sweeps) {
+void BodyModes::sweep(int num_sweeps, double enough) {
   find_velocities();
-  double change = 0.0;
   for (int sweep = 0; sweep < num_sweeps; ++sweep) {
-    change = 0.0;
+    double change = 0.0;
     for (Index k = 0; k < modes.size(); ++k) {
       const Index i = sweep % 2 == 0 ? k : modes.size() - 1 - k;  // loads go down a stack one way, and up the other
       const BodyContact& c = system_->contacts[i];
@@ -163,8 +162,8 @@ double BodyModes::sweep(int num_sweeps) {
         add_impulse(v_[b], system_->inverse_mass[b], normal, tangent, change_n, change_t);
       });
     }
+    if (change <= enough * speed_) return;
   }
-  return speed_ > 0.0 ? change / speed_ : 0.0;
 }
 
 // Impulses that the modes allow: none where open, on the edge of the cone where the contact slips.

@@ -26,9 +26,9 @@ class BodyModes {
   // The system to solve from now on, which must outlive the calls below. Bodies have positive masses.
   void load(const ContactSystem& system);
 
-  // Sweeps of block Gauss-Seidel over the contacts, from the present impulses: a guess of modes and impulses. Returns
-  // the largest change of a velocity in the last sweep, relative to the largest speed.
-  double sweep(int num_sweeps);
+  // Sweeps of block Gauss-Seidel over the contacts, from the present impulses: a guess of modes and impulses. They end
+  // early where a sweep changes no velocity by more than `enough` of the largest speed.
+  void sweep(int num_sweeps, double enough = 0.0);
 
   // Impulses onto the cones: none pulls, none is outside.
   void project();
