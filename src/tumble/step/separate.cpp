@@ -10,6 +10,8 @@ namespace {
 using Index = std::size_t;
 
 constexpr double k_round_off = 1e-12;  // [-] of the size of the bodies: overlap below is none
+constexpr double k_deep = 2e-3;        // [-] of the same: overlap above is met in this step, not in the next
+constexpr int k_max_rounds = 4;
 
 double gap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
   double gap = c.gap_at_start + c.way_bend + h * c.rows.offset;
@@ -58,13 +60,10 @@ void find_shifts(StepWorkspace::Parts& parts, IslandContacts contacts, double h,
   }
 }
 
-}  // namespace
-
-void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
-              double lost) {
-  const auto at = [&](int i) -> StepContact& { return parts.contacts[static_cast<Index>(i)]; };
+// What turning adds to the gaps, of the travel found.
+void find_way_bends(StepWorkspace::Parts& parts, IslandContacts contacts, double h) {
   for (const int i : contacts) {
-    StepContact& c = at(i);
+    StepContact& c = parts.contacts[static_cast<Index>(i)];
     if (!c.is_ahead) {
       c.way_bend = bend_of_way(parts, c.contact, h);
       continue;
@@ -75,26 +74,41 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
     set_way_velocity(h, parts, c.contact);
     c.way_bend = std::min(0.0, least_gap_at(parts, c.contact, parts.way_velocity, h) - gap_after(parts, c, h));
   }
-  const bool has_overlap = std::any_of(contacts.begin(), contacts.end(), [&](int i) {
-    double size = 0.0;
-    for_bodies(at(i).rows, [&](Index b, const Vector3&, const Vector3&) { size = std::max(size, parts.radius[b]); });
-    return gap_after(parts, at(i), h) < -k_round_off * size;
-  });
-  if (!has_overlap) return;
-  list_bodies(parts, contacts);
+}
 
-  find_shifts(parts, contacts, h, settings);
-  double work = 0.0;  // against the forces
-  for (const int body : parts.island_body) {
-    work -= dot(parts.force[static_cast<Index>(body)], parts.shift[static_cast<Index>(body)]);
+// Any overlap deeper than the tolerance [-], of the size of the bodies.
+bool has_overlap(const StepWorkspace::Parts& parts, IslandContacts contacts, double h, double tolerance) {
+  return std::any_of(contacts.begin(), contacts.end(), [&](int i) {
+    const StepContact& c = parts.contacts[static_cast<Index>(i)];
+    double size = 0.0;
+    for_bodies(c.rows, [&](Index b, const Vector3&, const Vector3&) { size = std::max(size, parts.radius[b]); });
+    return gap_after(parts, c, h) < -tolerance * size;
+  });
+}
+
+}  // namespace
+
+void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
+              double lost) {
+  double paid = std::max(lost, 0.0), tolerance = k_round_off;
+  for (int round = 0; round < k_max_rounds; ++round) {
+    find_way_bends(parts, contacts, h);
+    if (!has_overlap(parts, contacts, h, tolerance)) return;
+    list_bodies(parts, contacts);
+    find_shifts(parts, contacts, h, settings);
+    double work = 0.0;  // against the forces
+    for (const int body : parts.island_body) {
+      work -= dot(parts.force[static_cast<Index>(body)], parts.shift[static_cast<Index>(body)]);
+    }
+    const double share = work > paid ? paid / work : 1.0;
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];
+    }
+    forget_bodies(parts);
+    paid = std::max(paid - work, 0.0);
+    tolerance = k_deep;  // where the shifts turn bodies far, these turns add to the gaps in their turn
   }
-  const double paid = std::max(lost, 0.0);
-  const double share = work > paid ? paid / work : 1.0;
-  for (const int body : parts.island_body) {
-    const auto b = static_cast<Index>(body);
-    for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];
-  }
-  forget_bodies(parts);
 }
 
 }  // namespace tumble
