@@ -11,6 +11,7 @@ using Index = std::size_t;
 
 constexpr double k_round_off = 1e-12;  // [-] of the size of the bodies: overlap below is none
 constexpr double k_deep = 2e-3;        // [-] of the same: overlap above is met in this step, not in the next
+constexpr double k_far = 0.25;         // [-] of the same: the way of one round, in which turns are nearly linear
 constexpr int k_max_rounds = 4;
 
 double gap_after(const StepWorkspace::Parts& parts, const StepContact& c, double h) {
@@ -100,13 +101,20 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
     for (const int body : parts.island_body) {
       work -= dot(parts.force[static_cast<Index>(body)], parts.shift[static_cast<Index>(body)]);
     }
-    const double share = work > paid ? paid / work : 1.0;
+    double share = work > paid ? paid / work : 1.0;
+    for (const int body : parts.island_body) {
+      const auto b = static_cast<Index>(body);
+      const Vector3& d = parts.shift[b];
+      const double way = std::sqrt(d[0] * d[0] + d[1] * d[1]) + std::abs(d[2]) * parts.radius[b];
+      share = std::min(share, k_far * parts.radius[b] / way);
+    }
     for (const int body : parts.island_body) {
       const auto b = static_cast<Index>(body);
       for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];
     }
     forget_bodies(parts);
-    paid = std::max(paid - work, 0.0);
+    if (!(share > 0.0)) return;
+    paid = std::max(paid - share * work, 0.0);
     tolerance = k_deep;  // where the shifts turn bodies far, these turns add to the gaps in their turn
   }
 }

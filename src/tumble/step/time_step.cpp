@@ -147,6 +147,9 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
       if (damping > 0.0) energy.damping_loss += damping * parts.mass[i][j] * parts.free_velocity[i][j] * middle;
     }
   }
+  // Bodies that stop on their way do not fall all of it.
+  if (std::find(parts.is_stopped.begin(), parts.is_stopped.end(), true) != parts.is_stopped.end())
+    energy.created = std::max(energy.created, energy.stabilisation_work - energy.friction_loss - energy.impact_loss);
 }
 
 // What became of the islands: the worst of them, and their sums.
