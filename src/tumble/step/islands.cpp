@@ -102,11 +102,13 @@ void step_islands(double h, const StepSettings& settings, Parts& parts) {
   });
 }
 
-void separate_islands(double h, const StepSettings& settings, Parts& parts) {
+bool separate_islands(double h, const StepSettings& settings, Parts& parts) {
+  bool has_shifted = false;
   for_islands(parts, [&](IslandContacts contacts, IslandOutcome& outcome) {
-    if (outcome.has_moved) separate(parts, contacts, h, settings, outcome.lost);
+    if (outcome.has_moved && separate(parts, contacts, h, settings, outcome.lost)) has_shifted = true;
     outcome.has_moved = false;
   });
+  return has_shifted;
 }
 
 }  // namespace tumble

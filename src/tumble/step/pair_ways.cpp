@@ -24,6 +24,12 @@ double way_of(const Parts& parts, std::size_t body) {
   return std::sqrt(d[0] * d[0] + d[1] * d[1]) + std::abs(d[2]) * parts.radius[body];
 }
 
+bool is_within_reach(const Parts& parts, std::size_t body) {
+  const Vector3& d = parts.travel[body];
+  const double left = parts.reach[body] - std::abs(d[2]) * parts.radius[body];
+  return left >= 0.0 && d[0] * d[0] + d[1] * d[1] <= left * left;
+}
+
 void set_way_velocity(double h, Parts& parts, const Contact& pair) {
   for (const int body : {pair.body_a, pair.body_b}) {
     const auto b = static_cast<Index>(body);

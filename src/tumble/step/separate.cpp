@@ -89,12 +89,12 @@ bool has_overlap(const StepWorkspace::Parts& parts, IslandContacts contacts, dou
 
 }  // namespace
 
-void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
+bool separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, const StepSettings& settings,
               double lost) {
   double paid = std::max(lost, 0.0), tolerance = k_round_off;
   for (int round = 0; round < k_max_rounds; ++round) {
     find_way_bends(parts, contacts, h);
-    if (!has_overlap(parts, contacts, h, tolerance)) return;
+    if (!has_overlap(parts, contacts, h, tolerance)) return round > 0;
     list_bodies(parts, contacts);
     find_shifts(parts, contacts, h, settings);
     double work = 0.0;  // against the forces
@@ -113,10 +113,11 @@ void separate(StepWorkspace::Parts& parts, IslandContacts contacts, double h, co
       for (Index j = 0; j < 3; ++j) parts.travel[b][j] += share * parts.shift[b][j];
     }
     forget_bodies(parts);
-    if (!(share > 0.0)) return;
+    if (!(share > 0.0)) return round > 0;
     paid = std::max(paid - share * work, 0.0);
     tolerance = k_deep;  // where the shifts turn bodies far, these turns add to the gaps in their turn
   }
+  return true;
 }
 
 }  // namespace tumble

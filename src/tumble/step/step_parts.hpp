@@ -131,6 +131,9 @@ ShapeSize size_of_pair(const StepWorkspace::Parts& parts, const Contact& pair);
 // [m] How far the travel found takes any point of the body, at most.
 double way_of(const StepWorkspace::Parts& parts, std::size_t body);
 
+// Whether it goes no further than thought.
+bool is_within_reach(const StepWorkspace::Parts& parts, std::size_t body);
+
 // Sets parts.way_velocity of the two bodies to what takes them where they were found to go.
 void set_way_velocity(double step_size, StepWorkspace::Parts& parts, const Contact& pair);
 
@@ -174,8 +177,8 @@ void stop_at_impacts(double step_size, StepWorkspace::Parts& parts);
 // The motion of all islands. Those whose contacts are the same as before keep theirs.
 void step_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);
 
-// Takes the bodies of islands that were stepped out of what they would overlap.
-void separate_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);
+// Takes the bodies of islands that were stepped out of what they would overlap. False if there is no such.
+bool separate_islands(double step_size, const StepSettings& settings, StepWorkspace::Parts& parts);
 
 using IslandContacts = std::span<const int>;  // indices into Parts::contacts
 
@@ -189,8 +192,8 @@ IslandOutcome step_island(StepWorkspace::Parts& parts, IslandContacts island, do
 
 // Adds to the travel of the bodies of one island what takes them out of what they would overlap after the step, the
 // least in the metric of their masses. Velocities stay. Bodies are lifted against their forces by no more work than
-// `lost` [J], what the step has lost: the sum creates no energy.
-void separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, const StepSettings& settings,
+// `lost` [J], what the step has lost: the sum creates no energy. False if they overlap nothing, or can do no such work.
+bool separate(StepWorkspace::Parts& parts, IslandContacts island, double step_size, const StepSettings& settings,
               double lost);
 
 }  // namespace tumble

@@ -102,8 +102,8 @@ void stop_at_impacts(double h, Parts& parts) {
   parts.is_stopped.assign(parts.travel.size(), false);
   // Further than contacts were looked for, nothing is known to be free.
   for (Index i = 0; i < parts.travel.size(); ++i) {
-    const double way = way_of(parts, i);
-    if (way > parts.reach[i]) shorten_way(parts, i, parts.reach[i] / way);
+    if (parts.inverse_mass[i][0] > 0.0 && !is_within_reach(parts, i))
+      shorten_way(parts, i, parts.reach[i] / way_of(parts, i));
   }
   for (const FastPair& pair : parts.fast_pairs) {
     if (has_listed(parts, pair.nearest)) stop_fast_turn(h, parts, pair.nearest);

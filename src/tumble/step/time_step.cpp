@@ -87,16 +87,15 @@ void predict(const Scene& scene, double h, const State& state, Parts& parts) {
 
 // True if no body went further than its contacts were looked for; else they are looked for further away. Bodies that
 // touch nothing go as predicted.
-bool is_within_reach(Parts& parts) {
+bool are_within_reach(Parts& parts) {
   bool is_within = true;
   for (const int i : parts.island_contact) {
     const BodyContact& rows = parts.contacts[static_cast<Index>(i)].rows;
     for (const int body : {rows.body_a, rows.body_b}) {
       if (body < 0) continue;
       const auto b = static_cast<Index>(body);
-      const double way = way_of(parts, b);
-      if (way <= parts.reach[b]) continue;
-      parts.reach[b] = 2.0 * way;
+      if (is_within_reach(parts, b)) continue;
+      parts.reach[b] = 2.0 * way_of(parts, b);
       is_within = false;
     }
   }
@@ -107,7 +106,7 @@ bool is_within_reach(Parts& parts) {
 // False if the contacts are the same as before.
 bool find_more_contacts(const Scene& scene, double h, const State& state, Parts& parts, int& looks) {
   const bool may_look = looks < k_max_looks;
-  const bool is_within = !may_look || is_within_reach(parts);
+  const bool is_within = !may_look || are_within_reach(parts);
   if (!is_within) look_further(scene, h, state, parts);
   const bool has_overrun = list_overrun(h, parts);
   const bool meets = may_look && add_contacts_on_way(scene, h, parts);
@@ -247,8 +246,7 @@ LcpStatus time_step(const Scene& scene, double h, const StepSettings& settings, 
     do {
       step_islands(h, settings, parts);
     } while (find_more_contacts(scene, h, state, parts, looks));
-    separate_islands(h, settings, parts);
-  } while (find_more_contacts(scene, h, state, parts, looks));
+  } while (separate_islands(h, settings, parts) && find_more_contacts(scene, h, state, parts, looks));
   stop_at_impacts(h, parts);
   const StepReport summary = summary_of(parts);
   advance(scene, h, state, parts);
