@@ -251,7 +251,7 @@ void merge_into(std::vector<StepContact>& contacts, const std::vector<StepContac
   contacts.swap(scratch);
 }
 
-// Appends the contacts in reach of pairs of which one body may go further than when they were last looked for.
+// Sets parts.contacts to those in reach, of pairs of which one body may go further than when they were last looked for.
 void find_contacts(const Scene& scene, double h, const State& state, Parts& parts) {
   const std::vector<Contact>& found = parts.finder.find(parts.poses, parts.reach);
   parts.contacts.clear();
