@@ -91,6 +91,9 @@ void forget_bodies(Parts& parts) {
 }
 
 void step_islands(double h, const StepSettings& settings, Parts& parts) {
+  parts.island_begin.assign(1, 0);
+  parts.island_contact.clear();
+  if (parts.contacts.empty()) return;
   find_islands(parts);
   for_islands(parts, [&](IslandContacts contacts, IslandOutcome& outcome) {
     bool is_new = false;

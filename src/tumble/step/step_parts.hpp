@@ -104,8 +104,9 @@ struct StepWorkspace::Parts {
   std::vector<Vector3> next_velocity;
   std::vector<Vector3> force_velocity;  // after the forces and the first impacts: forces work along its mean with v
   std::vector<Vector3> travel;          // x, y, angle
-  std::vector<bool> is_stopped;         // on its way
+  std::vector<bool> is_stopped;         // on its way; of use where any has
   std::vector<Vector3> shift;           // what `separate` adds to it
+  bool has_stopped = false;             // any body, on its way
 
   // Contacts, island by island.
   std::vector<StepContact> contacts;

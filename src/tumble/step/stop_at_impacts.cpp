@@ -44,7 +44,7 @@ bool turns_far(const Parts& parts, const Contact& pair) {
 void shorten_way(Parts& parts, Index body, double share) {
   if (!(parts.inverse_mass[body][0] > 0.0) || !(share < 1.0)) return;
   for (double& way : parts.travel[body]) way *= share;
-  parts.is_stopped[body] = true;
+  parts.is_stopped[body] = parts.has_stopped = true;
 }
 
 void shorten_ways(Parts& parts, const Contact& pair, double share) {
@@ -99,6 +99,8 @@ bool stop_followers(double h, Parts& parts) {
 }  // namespace
 
 void stop_at_impacts(double h, Parts& parts) {
+  parts.has_stopped = false;
+  if (parts.contacts.empty() && parts.fast_pairs.empty()) return;
   parts.is_stopped.assign(parts.travel.size(), false);
   // Further than contacts were looked for, nothing is known to be free.
   for (Index i = 0; i < parts.travel.size(); ++i) {

@@ -105,6 +105,7 @@ bool are_within_reach(Parts& parts) {
 // Looks for contacts that the motion found would run through, where it takes bodies elsewhere than thought before.
 // False if the contacts are the same as before.
 bool find_more_contacts(const Scene& scene, double h, const State& state, Parts& parts, int& looks) {
+  if (parts.contacts.empty() && parts.fast_pairs.empty()) return false;
   const bool may_look = looks < k_max_looks;
   const bool is_within = !may_look || are_within_reach(parts);
   if (!is_within) look_further(scene, h, state, parts);
@@ -147,7 +148,7 @@ void fill_report(const Scene& scene, double h, const State& state, Parts& parts,
     }
   }
   // Bodies that stop on their way do not fall all of it.
-  if (std::find(parts.is_stopped.begin(), parts.is_stopped.end(), true) != parts.is_stopped.end())
+  if (parts.has_stopped)
     energy.created = std::max(energy.created, energy.stabilisation_work - energy.friction_loss - energy.impact_loss);
 }
 
