@@ -32,11 +32,11 @@ struct Sum {
   }
 };
 
-// [m/s] of what contact velocities are sums of: speeds before and after, those of contacts that stay open included, and
-// what impulses change them by.
+// [m/s] of what contact velocities are sums of: speeds before and after, and what impulses change them by.
 double size_of_speeds(const Scene& scene, const StepReport& report) {
   double largest = 0.0;
   for (const ContactRecord& c : report.contacts) {
+    if (c.mode == ContactMode::open) continue;
     double change = 0.0;
     for (const int i : {c.contact.body_a, c.contact.body_b}) {
       const Body& body = scene.bodies[static_cast<std::size_t>(i)];

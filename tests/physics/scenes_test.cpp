@@ -14,10 +14,10 @@
 namespace tumble::physics {
 namespace {
 
-// The first broken law of each kind, with the time. Every step is held to the residual that it reports; all but
-// `accepted_inexact_steps` have to be solved.
+// The first broken law of each kind, with the time, and the largest overlap from a time on. Every step is held to the
+// residual that it reports; all but `accepted_inexact_steps` have to be solved.
 std::map<std::string, std::string> first_faults(const Scene& scene, double step_size, double duration, double* depth,
-                                                int accepted_inexact_steps = 0) {
+                                                int accepted_inexact_steps = 0, double depth_from = 0.0) {
   std::map<std::string, std::string> faults;
   Simulation simulation = start(scene, step_size, duration);
   State before = simulation.state();
@@ -29,7 +29,7 @@ std::map<std::string, std::string> first_faults(const Scene& scene, double step_
       const std::string kind = fault.substr(0, fault.find(':'));
       faults.try_emplace(kind, fault + ", at " + std::to_string(after.time) + " s");
     }
-    if (depth) {
+    if (depth && after.time >= depth_from) {
       for (const ContactRecord& record : report.contacts) *depth = std::max(*depth, -record.contact.gap);
     }
     before = after;
@@ -58,11 +58,20 @@ TEST_P(NamedScene, KeepsTheLaws) {
 // Bodies may overlap by what a step does not see to third order, but not more and more.
 TEST_P(NamedScene, DoesNotSink) {
   constexpr double accepted_depth = 1e-5;  // [m]
-  constexpr double longest_step = 1e-3;    // [s]: at 2 ms bodies that turn at 20 rad/s overlap by twice that
   const Scene scene = named_scene(GetParam());
   double depth = 0.0;
-  ASSERT_NO_THROW(first_faults(scene, std::min(scene.step_size, longest_step), scene.duration, &depth,
-                               accepted_inexact_steps(GetParam())));
+  // At its step of 2 ms, boxes of the pile that turn at 20 rad/s while they fall overlap by twice that.
+  const double from = GetParam() == "pile" ? 0.5 * scene.duration : 0.0;
+  ASSERT_NO_THROW(
+      first_faults(scene, scene.step_size, scene.duration, &depth, accepted_inexact_steps(GetParam()), from));
+  EXPECT_LT(depth, accepted_depth);
+}
+
+TEST(NamedScenes, APileDoesNotSinkWhileItFalls) {
+  constexpr double accepted_depth = 1e-5;  // [m]
+  const Scene scene = named_scene("pile");
+  double depth = 0.0;
+  ASSERT_NO_THROW(first_faults(scene, 1e-3, scene.duration, &depth, accepted_inexact_steps("pile")));
   EXPECT_LT(depth, accepted_depth);
 }
 
