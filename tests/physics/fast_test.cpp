@@ -158,5 +158,54 @@ TEST(Fast, EnergyThatStopsMakeIsReported) {
   EXPECT_GT(created, 0.0);
 }
 
+// Bodies of every shape, of masses a million times apart, in a closed box, as fast as 55 of their sizes per second.
+struct Crush {
+  Scene scene;
+  double size, step_size;
+};
+
+Crush crush(std::uint64_t seed) {
+  problems::Random random(seed);
+  const double size = random.log_uniform(-1.3, 1.3), speed = std::exp(random.uniform(-2.0, 4.0)) * size;
+  const int num_bodies = 1 + static_cast<int>(seed % 12);
+  std::vector<Body> bodies = {fixed(level()), fixed(wall_on_the_left(-8.0 * size)),
+                              fixed(wall_on_the_right(8.0 * size)), fixed(ceiling(20.0 * size))};
+  for (int i = 0; i < num_bodies; ++i) {
+    const Shape shapes[] = {square(size),     rectangle(size, 0.05 * size), regular_polygon(3 + i % 6, size),
+                            disc(0.5 * size), ellipse(size, 0.3 * size),    capsule(size, 0.1 * size)};
+    const auto velocity = [&] { return random.uniform(-1.0, 1.0) * speed; };
+    const Pose pose{{(i % 4 - 1.5) * 3.0 * size, (2 + 3 * (i / 4)) * size}, random.uniform(-3.0, 3.0)};
+    const double mass = random.log_uniform(-10.0, 10.0);
+    bodies.push_back(dynamic(shapes[random.below(6)], mass, pose, {velocity(), velocity(), velocity() / size}));
+  }
+  const double friction = 0.4 * static_cast<double>(random.below(3));
+  const double restitution = 0.5 * static_cast<double>(random.below(3));
+  const double turn_per_step = 0.3;  // [rad] at most
+  const double step_size = std::min(std::exp(random.uniform(-8.0, -3.5)), turn_per_step * size / speed);
+  return {scene_of(law(friction, restitution), bodies), size, step_size};
+}
+
+bool is_in_the_box(const State& state, double size) {
+  return std::all_of(state.bodies.begin() + 4, state.bodies.end(), [&](const auto& body) {
+    const Vector2 p = body.pose.position;
+    return std::abs(p.x) <= 8.0 * size && p.y >= 0.0 && p.y <= 20.0 * size && std::isfinite(body.velocity[2]);
+  });
+}
+
+// Light bodies between heavy ones are pressed against the walls, and do not come out on their other side.
+TEST(Fast, BodiesOfAllMassesStayInAClosedBox) {
+  constexpr int num_steps = 150;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const Crush c = crush(seed);
+    SimulateSettings settings = {
+        .step_size = c.step_size, .duration = num_steps * c.step_size, .keeps_contacts = false};
+    if (seed % 2 == 1) settings.step.solver = ContactSolver::fast;
+    Simulation simulation(c.scene, settings);
+    const bool is_out =
+        run_until(simulation, [&](const State& state, const StepReport&) { return !is_in_the_box(state, c.size); });
+    EXPECT_FALSE(is_out) << "seed " << seed << ", step size " << c.step_size << ", at " << simulation.time() << " s";
+  }
+}
+
 }  // namespace
 }  // namespace tumble::physics

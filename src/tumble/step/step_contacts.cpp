@@ -226,7 +226,7 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair&
     c.gap_at_start = c.contact.gap - impact->time * velocity_at(c.rows, velocity)[0];
     c.gap = std::max(c.gap_at_start, 0.0);
     // Reported where the bodies are at the start of the step, turned as they will be.
-    c.contact.gap = c.gap_at_start;
+    c.contact.gap = c.gap;
     for (Vector2* place : {&c.places.on_a, &c.contact.point_a}) *place = *place - way_of(a);
     for (Vector2* place : {&c.places.on_b, &c.contact.point_b}) *place = *place - way_of(b);
   }

@@ -16,7 +16,8 @@ constexpr double k_other_side = 0.25;  // [-] of the same: as deep, parts may co
 constexpr double k_far_turn = 0.25;    // [rad]: they may do so without having been deep where the step ends
 constexpr int k_max_rounds = 20;
 
-// The part of their way that two parts can go before one is deeper inside the other than at the start, by `depth` [m].
+// The part of their way that two parts can go before one is deeper inside the other than `depth` [m], and than at the
+// start.
 double share_before_depth(double h, Parts& parts, const Contact& pair, double depth) {
   constexpr double part = 0.25;  // [rad], and [-] of the radius: of the way between two looks
   constexpr double fewest_looks = 8.0, most_looks = 1000.0;
@@ -29,7 +30,7 @@ double share_before_depth(double h, Parts& parts, const Contact& pair, double de
   const double radius = size_of_pair(parts, pair).radius;
   const double looks = std::clamp(std::ceil(std::max(turn / part, way / (part * radius))), fewest_looks, most_looks);
   set_way_velocity(h, parts, pair);
-  const double deepest = std::min(least_gap_at(parts, pair, parts.way_velocity, 0.0), 0.0) - depth;
+  const double deepest = std::min(least_gap_at(parts, pair, parts.way_velocity, 0.0), -depth);
   for (double look = 1.0; look <= looks; ++look) {
     if (least_gap_at(parts, pair, parts.way_velocity, look / looks * h) < deepest) return (look - 1.0) / looks;
   }
@@ -54,6 +55,19 @@ void shorten_ways(Parts& parts, const Contact& pair, double share) {
 // Bodies that were to touch first where they are held apart, and turn so fast that they run into each other elsewhere.
 void stop_fast_turn(double h, Parts& parts, const Contact& pair) {
   const double depth = k_deep * size_of_pair(parts, pair).radius;
+  set_way_velocity(h, parts, pair);
+  if (turns_far(parts, pair) || least_gap_at(parts, pair, parts.way_velocity, h) < -depth)
+    shorten_ways(parts, pair, share_before_depth(h, parts, pair, depth));
+}
+
+// Bodies that would come out on the other side of what they touch.
+void stop_deep(double h, Parts& parts, const StepContact& c) {
+  const Contact& pair = c.contact;
+  const double depth = k_other_side * size_of_pair(parts, pair).radius;
+  const auto way = [&](int body) {
+    return parts.inverse_mass[static_cast<Index>(body)][0] > 0.0 ? way_of(parts, static_cast<Index>(body)) : 0.0;
+  };
+  if (c.gap_at_start >= -depth && way(pair.body_a) + way(pair.body_b) <= depth) return;
   set_way_velocity(h, parts, pair);
   if (turns_far(parts, pair) || least_gap_at(parts, pair, parts.way_velocity, h) < -depth)
     shorten_ways(parts, pair, share_before_depth(h, parts, pair, depth));
@@ -85,7 +99,7 @@ bool stop_followers(double h, Parts& parts) {
       (way < 0.0 ? approach : gap) += way;
       is_after_stop = is_after_stop || parts.is_stopped[b];
     });
-    const double depth = k_deep * size_of_pair(parts, c.contact).radius, least = std::min(c.gap_at_start, 0.0) - depth;
+    const double depth = k_deep * size_of_pair(parts, c.contact).radius, least = std::min(c.gap_at_start, -depth);
     if (!is_after_stop || gap + approach >= least - k_deep * depth || !(approach < 0.0)) continue;
     const double share = std::max(least - gap, approach) / approach;
     for_bodies(c.rows, [&](Index b, const Vector3& normal, const Vector3&) {
@@ -111,9 +125,7 @@ void stop_at_impacts(double h, Parts& parts) {
     if (has_listed(parts, pair.nearest)) stop_fast_turn(h, parts, pair.nearest);
   }
   for (const StepContact& c : parts.contacts) {
-    if (!c.is_listed || c.is_ahead || !turns_far(parts, c.contact)) continue;
-    const double depth = k_other_side * size_of_pair(parts, c.contact).radius;
-    shorten_ways(parts, c.contact, share_before_depth(h, parts, c.contact, depth));
+    if (c.is_listed && !c.is_ahead) stop_deep(h, parts, c);
   }
   for (int round = 0; round < k_max_rounds; ++round) {
     const bool has_met = stop_where_they_meet(h, parts), has_followed = stop_followers(h, parts);
