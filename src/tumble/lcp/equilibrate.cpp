@@ -1,11 +1,12 @@
 #include "tumble/lcp/equilibrate.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
+
+#include "tumble/math/bit_cast.hpp"
 
 namespace tumble {
 namespace {
@@ -19,7 +20,7 @@ double rough_log2(double x) {
 
 // Floor of log2 |x|, from the bits: cheaper than frexp. A denormal counts as the smallest normal number, 0 as less.
 int exponent_of(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto bits = bit_cast<std::uint64_t>(x);
   const int exponent = static_cast<int>(bits >> 52 & 0x7ff);
   return (bits << 1) == 0 ? -4000 : exponent - 1023;
 }

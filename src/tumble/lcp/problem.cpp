@@ -1,12 +1,12 @@
 #include "tumble/lcp/problem.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "tumble/math/bit_cast.hpp"
 #include "tumble/math/instruction_sets.hpp"
 
 namespace tumble {
@@ -18,7 +18,7 @@ TUMBLE_INSTRUCTION_SETS
 bool is_all_finite(const double* values, std::size_t count) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000u;
   std::uint64_t is_bad = 0;
-  for (std::size_t i = 0; i < count; ++i) is_bad |= (std::bit_cast<std::uint64_t>(values[i]) & exponent) == exponent;
+  for (std::size_t i = 0; i < count; ++i) is_bad |= (bit_cast<std::uint64_t>(values[i]) & exponent) == exponent;
   return is_bad == 0;
 }
 

@@ -1,15 +1,16 @@
 #include "tumble/lcp/scaled_problem.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
+
+#include "tumble/math/bit_cast.hpp"
 
 namespace tumble {
 namespace {
 
 // 2^exponent for -1022 <= exponent <= 1023.
-double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
+double power_of_two(int exponent) { return bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
 
 constexpr int k_safe_exponent = 250;  // three factors and an entry of 1e+-60 stay within the range of normal numbers
 

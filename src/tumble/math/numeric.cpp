@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #ifndef __cpp_lib_to_chars
+#include <cerrno>
 #include <cstdlib>
 #endif
 
@@ -28,8 +29,10 @@ std::optional<double> parse_number(std::string_view text) {
   const std::string copy(text);
   if (copy.front() == ' ' || copy.find_first_of("xX") != std::string::npos) return std::nullopt;
   char* end = nullptr;
+  errno = 0;
   const double value = std::strtod(copy.c_str(), &end);
   if (end != copy.c_str() + copy.size()) return std::nullopt;
+  if (errno == ERANGE && (value == 0.0 || !std::isfinite(value))) return std::nullopt;  // as from_chars
   return value;
 #endif
 }

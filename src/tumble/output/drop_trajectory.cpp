@@ -9,27 +9,6 @@
 namespace tumble::output {
 namespace {
 
-Scene scene_of(const drop::Parameters& p) {
-  Scene scene;
-  scene.title = fmt::format("Drop of a square of side {:.6g} m", p.l);
-  scene.materials = {{"default", {p.mu, p.mu, p.eps}}};
-  scene.gravity = {0.0, -p.g};
-  scene.step_size = p.dt;
-  scene.duration = (p.columns - 1) * p.dt;
-  Body floor;
-  floor.name = "floor";
-  floor.kind = BodyKind::fixed;
-  floor.parts.push_back({HalfPlane{{0.0, 1.0}, 0.0}});
-  Body square;
-  square.name = "square";
-  const double h = 0.5 * p.l;
-  square.parts.push_back({RoundedPolygon{{{-h, -h}, {h, -h}, {h, h}, {-h, h}}}});
-  square.mass = p.m;
-  square.moment_of_inertia = p.m * p.l * p.l / 6.0;
-  scene.bodies = {floor, square};
-  return scene;
-}
-
 ContactRecord contact_of(const drop::Record& record, int column) {
   const drop::Parameters& p = record.parameters;
   const drop::StepRecord& step = record.steps[static_cast<std::size_t>(column)];
@@ -52,10 +31,34 @@ ContactRecord contact_of(const drop::Record& record, int column) {
 
 }  // namespace
 
+Scene drop_scene(const Vector3& q0, const Vector3& v0, const drop::Parameters& parameters) {
+  const drop::Parameters& p = parameters;
+  Scene scene;
+  scene.title = fmt::format("Drop of a square of side {:.6g} m", p.l);
+  scene.materials = {{"default", {p.mu, p.mu, p.eps}}};
+  scene.gravity = {0.0, -p.g};
+  scene.step_size = p.dt;
+  scene.duration = (p.columns - 1) * p.dt;
+  Body floor;
+  floor.name = "floor";
+  floor.kind = BodyKind::fixed;
+  floor.parts.push_back({HalfPlane{{0.0, 1.0}, 0.0}});
+  Body square;
+  square.name = "square";
+  const double h = 0.5 * p.l;
+  square.parts.push_back({RoundedPolygon{{{-h, -h}, {h, -h}, {h, h}, {-h, h}}}});
+  square.mass = p.m;
+  square.moment_of_inertia = p.m * p.l * p.l / 6.0;
+  square.pose = {{q0[0], q0[1]}, q0[2]};
+  square.velocity = v0;
+  scene.bodies = {floor, square};
+  return scene;
+}
+
 Trajectory trajectory_of(const drop::Record& record) {
   check_record(record);
   Trajectory trajectory;
-  trajectory.scene = scene_of(record.parameters);
+  trajectory.scene = drop_scene(record.trajectory.q_at(0), record.trajectory.v_at(0), record.parameters);
   trajectory.step_size = record.parameters.dt;
   const int columns = record.trajectory.columns;
   for (int k = 0; k < columns; ++k) {

@@ -234,12 +234,12 @@ void append_contacts_ahead(const Scene& scene, double h, Parts& parts, FastPair&
 
 // Those of one pair, of contacts in the order of their ids.
 std::span<const StepContact> contacts_of_pair(const std::vector<StepContact>& contacts, const Contact& pair) {
-  const auto first =
-      std::lower_bound(contacts.begin(), contacts.end(), pair,
-                       [](const StepContact& c, const Contact& p) { return pair_of(c.contact) < pair_of(p); });
-  auto end = first;
-  while (end != contacts.end() && is_of_pair(end->contact, pair)) ++end;
-  return {first, end};
+  const auto is_before = [](const StepContact& c, const Contact& p) { return pair_of(c.contact) < pair_of(p); };
+  const StepContact* const end = contacts.data() + contacts.size();
+  const StepContact* const first = std::lower_bound(contacts.data(), end, pair, is_before);
+  const StepContact* last = first;
+  while (last != end && is_of_pair(last->contact, pair)) ++last;
+  return {first, static_cast<std::size_t>(last - first)};
 }
 
 // Both in the order of their ids.

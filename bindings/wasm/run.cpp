@@ -1,0 +1,169 @@
+#include "run.hpp"
+
+#include <algorithm>
+
+#include "tumble/explain/lemke_pages.hpp"
+#include "tumble/explain/step_problem.hpp"
+#include "tumble/lcp/lemke.hpp"
+#include "tumble/lcp/residual.hpp"
+#include "tumble/output/csv.hpp"
+#include "tumble/output/drop_trajectory.hpp"
+#include "tumble/output/record_fields.hpp"
+#include "tumble/output/trajectory_csv.hpp"
+#include "tumble/output/trajectory_fields.hpp"
+
+namespace tumble::wasm {
+namespace {
+
+using Index = std::size_t;
+
+val variables(const std::vector<int>& numbers, Index n) {
+  std::vector<std::string> names;
+  for (const int number : numbers) names.push_back(lemke_variable(number, n));
+  return to_array(names);
+}
+
+val variable(std::optional<int> number, Index n) { return number ? val(lemke_variable(*number, n)) : val::null(); }
+
+val to_object(const LemkePage& page) {
+  const Index n = page.n();
+  val ratios = val::array();
+  for (Index row = 0; row < n; ++row) ratios.set(row, page.ratios[row] ? val(*page.ratios[row]) : val::null());
+  val object = val::object();
+  object.set("entered", variable(page.entered, n));
+  object.set("left", variable(page.left, n));
+  object.set("entering", variable(page.entering, n));
+  object.set("leaving", variable(page.leaving, n));
+  object.set("basis", variables(page.basis, n));
+  object.set("columns", variables(page.columns, n));
+  object.set("entries", to_typed_array(page.entries));
+  object.set("ratios", ratios);
+  return object;
+}
+
+const char* name_of(LemkeEnd end) {
+  switch (end) {
+    case LemkeEnd::no_pivot: return "no_pivot";
+    case LemkeEnd::solved: return "solved";
+    case LemkeEnd::stopped: return "stopped";
+    case LemkeEnd::ray: return "ray";
+  }
+  return "";
+}
+
+val to_object(const StepProblem& shown) {
+  if (shown.z.empty()) return val::null();
+  val object = val::object();
+  object.set("V", to_typed_array(shown.problem.M));
+  object.set("p", to_typed_array(shown.problem.q));
+  object.set("z", to_typed_array(shown.z));
+  object.set("w", to_typed_array(shown.w));
+  object.set("z_names", to_array(shown.z_names));
+  object.set("z_units", to_array(shown.z_units));
+  object.set("w_names", to_array(shown.w_names));
+  object.set("w_units", to_array(shown.w_units));
+  object.set("residual", residual(shown.problem, shown.z).largest());
+  const LemkeSettings settings;
+  const LemkeTrace trace = trace_lemke(shown.problem, settings);
+  const auto [pages, end] = lemke_pages(trace, shown.z.size(), settings);
+  val array = val::array();
+  for (Index k = 0; k < pages.size(); ++k) array.set(k, to_object(pages[k]));
+  object.set("pages", array);
+  object.set("end", std::string(name_of(end)));
+  return object;
+}
+
+val to_object(const ImpulsePlane& plane) {
+  val object = val::object();
+  object.set("A_nn", plane.A_nn);
+  object.set("A_nt", plane.A_nt);
+  object.set("A_tt", plane.A_tt);
+  object.set("u_n", plane.u_n);
+  object.set("u_t", plane.u_t);
+  object.set("u_n_target", plane.u_n_target);
+  object.set("friction", plane.friction);
+  object.set("P_n", plane.P_n);
+  object.set("P_t", plane.P_t);
+  return object;
+}
+
+// The contacts at work in the step that leaves sample k, if it is the only one between two samples.
+std::span<const ContactRecord> contacts_from(const Trajectory& trajectory, Index k) {
+  if (k + 1 >= trajectory.time.size()) return {};
+  const double steps = (trajectory.time[k + 1] - trajectory.time[k]) / trajectory.step_size;
+  if (steps > 1.5) return {};
+  const auto step = static_cast<std::int64_t>(trajectory.time[k] / trajectory.step_size + 0.5) + 1;
+  const auto found = std::lower_bound(trajectory.contacts.begin(), trajectory.contacts.end(), step,
+                                      [](const StepContacts& c, std::int64_t number) { return c.step < number; });
+  if (found == trajectory.contacts.end() || found->step != step) return {};
+  return found->contacts;
+}
+
+}  // namespace
+
+std::shared_ptr<Run> Run::of_record(drop::Record record) {
+  auto run = std::make_shared<Run>();
+  run->trajectory_ = output::trajectory_of(record);
+  run->record_ = std::move(record);
+  return run;
+}
+
+std::shared_ptr<Run> Run::of_trajectory(Trajectory trajectory) {
+  auto run = std::make_shared<Run>();
+  run->trajectory_ = std::move(trajectory);
+  return run;
+}
+
+val Run::trajectory() const { return wasm::to_object(output::to_fields(trajectory_)); }
+
+val Run::record() const { return record_ ? wasm::to_object(output::to_fields(*record_)) : val::null(); }
+
+val Run::problem(int k) const {
+  const auto at = static_cast<Index>(k);
+  if (at >= trajectory_.time.size()) return val::null();
+  if (record_) {
+    if (record_->steps[at].gap >= record_->parameters.delta) return val::null();
+    return to_object(problem_of_drop(record_->trajectory.q_at(k), record_->trajectory.v_at(k), record_->parameters));
+  }
+  const auto contacts = contacts_from(trajectory_, at);
+  if (contacts.empty()) return val::null();
+  return to_object(problem_of_contacts(trajectory_.scene, trajectory_.bodies(at), trajectory_.bodies(at + 1), contacts,
+                                       trajectory_.step_size));
+}
+
+val Run::impulse_planes(int k) const {
+  const auto at = static_cast<Index>(k);
+  val array = val::array();
+  if (at >= trajectory_.time.size()) return array;
+  if (record_) {
+    if (record_->steps[at].gap >= record_->parameters.delta) return array;
+    const auto plane =
+        impulse_plane_of_drop(record_->trajectory.q_at(k), record_->trajectory.v_at(k), record_->parameters);
+    array.set(0, to_object(plane));
+    return array;
+  }
+  Index count = 0;
+  for (const ContactRecord& contact : contacts_from(trajectory_, at)) {
+    array.set(count++,
+              to_object(impulse_plane(trajectory_.scene, trajectory_.bodies(at), contact, trajectory_.step_size)));
+  }
+  return array;
+}
+
+std::string Run::csv(const std::string& table) const {
+  if (table == "record" && record_) return output::to_csv(*record_);
+  if (table == "samples" && !record_)
+    return output::samples_csv_header(trajectory_) + output::samples_csv_rows(trajectory_, 0, trajectory_.time.size());
+  if (table == "contacts" && !record_)
+    return output::contacts_csv_header(trajectory_) +
+           output::contacts_csv_rows(trajectory_, 0, trajectory_.contacts.size());
+  throw std::invalid_argument(fmt::format("table: this run has no '{}'", table));
+}
+
+double SceneRun::advance(int num_steps) {
+  for (int i = 0; i < num_steps && !simulation_.is_done(); ++i) simulation_.advance();
+  if (simulation_.is_done()) return 1.0;
+  return static_cast<double>(simulation_.step()) / static_cast<double>(simulation_.num_steps());
+}
+
+}  // namespace tumble::wasm
