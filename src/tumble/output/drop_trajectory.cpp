@@ -9,27 +9,6 @@
 namespace tumble::output {
 namespace {
 
-Scene scene_of(const drop::Parameters& p) {
-  Scene scene;
-  scene.title = fmt::format("Drop of a square of side {:.6g} m", p.l);
-  scene.materials = {{"default", {p.mu, p.mu, p.eps}}};
-  scene.gravity = {0.0, -p.g};
-  scene.step_size = p.dt;
-  scene.duration = (p.columns - 1) * p.dt;
-  Body floor;
-  floor.name = "floor";
-  floor.kind = BodyKind::fixed;
-  floor.parts.push_back({HalfPlane{{0.0, 1.0}, 0.0}});
-  Body square;
-  square.name = "square";
-  const double h = 0.5 * p.l;
-  square.parts.push_back({RoundedPolygon{{{-h, -h}, {h, -h}, {h, h}, {-h, h}}}});
-  square.mass = p.m;
-  square.moment_of_inertia = p.m * p.l * p.l / 6.0;
-  scene.bodies = {floor, square};
-  return scene;
-}
-
 // In the step from this column to the next.
 ContactRecord contact_of(const drop::Record& record, int column) {
   const drop::Parameters& p = record.parameters;
@@ -59,6 +38,27 @@ ContactRecord contact_of(const drop::Record& record, int column) {
 }
 
 }  // namespace
+
+Scene scene_of(const drop::Parameters& p) {
+  Scene scene;
+  scene.title = fmt::format("Drop of a square of side {:.6g} m", p.l);
+  scene.materials = {{"default", {p.mu, p.mu, p.eps}}};
+  scene.gravity = {0.0, -p.g};
+  scene.step_size = p.dt;
+  scene.duration = (p.columns - 1) * p.dt;
+  Body floor;
+  floor.name = "floor";
+  floor.kind = BodyKind::fixed;
+  floor.parts.push_back({HalfPlane{{0.0, 1.0}, 0.0}});
+  Body square;
+  square.name = "square";
+  const double h = 0.5 * p.l;
+  square.parts.push_back({RoundedPolygon{{{-h, -h}, {h, -h}, {h, h}, {-h, h}}}});
+  square.mass = p.m;
+  square.moment_of_inertia = p.m * p.l * p.l / 6.0;
+  scene.bodies = {floor, square};
+  return scene;
+}
 
 Trajectory trajectory_of(const drop::Record& record) {
   check_record(record);

@@ -6,7 +6,10 @@
 
 namespace tumble::output {
 
-// A square on a half-plane, a sample for each column. Steps that were not solved have no contacts. Throws
+// A square on a half-plane: the bodies "floor" and "square".
+Scene scene_of(const drop::Parameters& parameters);
+
+// A run of that scene, a sample for each column. Steps that were not solved have no contacts. Throws
 // std::invalid_argument if the record is inconsistent.
 Trajectory trajectory_of(const drop::Record& record);
 
