@@ -27,6 +27,9 @@ class CMakeBuild(build_ext):
         target.parent.mkdir(parents=True, exist_ok=True)
         for module in (build / "python/tumble").glob("*.so"):
             self.copy_file(str(module), str(target.parent / module.name))
+        page = ROOT / "build/python/tumble/tumble.html"  # there once `make viewer` has built it
+        if page.is_file():
+            self.copy_file(str(page), str(target.parent / page.name))
 
 
 version = re.search(r"project\(tumble VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())

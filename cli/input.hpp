@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 #include "tumble/scene/scene.hpp"
@@ -16,5 +17,9 @@ std::string read_input(const std::string& file, std::size_t max_bytes);
 
 // Throws as read_input, and std::invalid_argument "file:line:column: field: ..." as parse_scene.
 Scene read_scene(const std::string& file);
+
+// Where the page for .html files is looked for: $TUMBLE_PAGE, else share/tumble/tumble.html beside the folder of this
+// program.
+std::filesystem::path page_path();
 
 }  // namespace tumble::cli

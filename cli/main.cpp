@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "commands.hpp"
+#include "input.hpp"
 #include "text.hpp"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -74,11 +75,14 @@ int picture_side(const std::string& option, const std::string& text) {
 
 // `data` are the endings of files that hold numbers.
 void add_output_options(CLI::App& app, OutputOptions& output, const std::string& data) {
+  output.pictures.page = page_path();
   app.add_option(
          "-o,--output", output.files,
-         fmt::format("File to write; its ending picks the kind: {}, .png .svg (many poses in one picture), .gif "
-                     ".mp4 (animation in real time). May be given several times",
-                     data))
+         fmt::format(
+             "File to write; its ending picks the kind: {}, .png .svg (many poses in one picture), .gif "
+             ".mp4 (animation in real time), .html (page that plays it in a browser; needs `make viewer`). May be "
+             "given several times",
+             data))
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

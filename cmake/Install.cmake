@@ -10,6 +10,8 @@ if(TUMBLE_BUILD_OUTPUT)
           FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT tumbleOutputTargets NAMESPACE tumble:: DESTINATION ${package_dir})
 endif()
+# The page that `make viewer` builds.
+install(FILES ${PROJECT_BINARY_DIR}/share/tumble/tumble.html DESTINATION share/tumble OPTIONAL)
 configure_package_config_file(cmake/tumbleConfig.cmake.in tumbleConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(tumbleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tumbleConfig.cmake ${PROJECT_BINARY_DIR}/tumbleConfigVersion.cmake

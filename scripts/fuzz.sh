@@ -16,6 +16,9 @@ for fuzzer in "$build"/tests/fuzz/fuzz_*; do
           'x = """\\\n\357\273\276"""' 'x=1="\357\271\277"'; do
         printf "$text" >"$build/corpus/$name/seed$(printf "$text" | cksum | cut -d' ' -f1)"
       done ;;
+    fuzz_trajectory_csv)
+      tables=tests/output/data/two_balls
+      { cat $tables.csv; printf '\000'; cat $tables.contacts.csv; } >"$build/corpus/$name/seed" ;;
     fuzz_record_npz) cp tests/output/data/*.npz "$build/corpus/$name/" ;;
   esac
   echo "$name: $seconds s"

@@ -1,11 +1,16 @@
 // The extension module tumble._output: trajectories into files. Apart from tumble._core, which must be imported before,
-// as it needs cairo and other libraries, which not every machine has. Public face: Trajectory.save.
+// as it needs cairo and other libraries, which not every machine has. Public face: save of Trajectory and of
+// drop.Record.
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
+#include "tumble/output/field.hpp"
+#include "tumble/output/npz.hpp"
+#include "tumble/output/trajectory_fields.hpp"
 #include "tumble/output/write.hpp"
 
 namespace tumble::python {
@@ -13,19 +18,20 @@ namespace {
 
 namespace py = pybind11;
 
-// `path` in the bytes of the file system. Raises ValueError for what the caller can mend, OSError for what the machine
-// refuses.
-void save(const Trajectory& trajectory, const std::string& path, const std::string& format, int width, int height,
-          double speed, bool has_contacts) {
-  const output::WriteOptions options{true, format, width, height, speed};
-  if (!has_contacts && output::contact_use(path, options) == output::ContactUse::all) {
-    throw std::invalid_argument("contacts: were not kept; simulate with contacts=True");
-  }
+// Paths are in the bytes of the file system; `page` is needed for an .html alone.
+output::WriteOptions as_options(const std::string& format, int width, int height, double speed,
+                                const std::string& page) {
+  return {true, format, width, height, speed, page};
+}
+
+// Raises ValueError for what the caller can mend, OSError for what the machine refuses.
+template <class Write>
+void without_gil(Write write) {
   std::string failure;
   {
-    const py::gil_scoped_release without_gil;
+    const py::gil_scoped_release released;
     try {
-      output::write_trajectory(trajectory, path, options);
+      write();
     } catch (const std::runtime_error& error) {
       failure = error.what();
     }
@@ -35,12 +41,32 @@ void save(const Trajectory& trajectory, const std::string& path, const std::stri
   throw py::error_already_set();
 }
 
+void save(const Trajectory& trajectory, bool has_contacts, const std::string& path, const std::string& format,
+          int width, int height, double speed, const std::string& page) {
+  const output::WriteOptions options = as_options(format, width, height, speed, page);
+  if (!has_contacts && output::contact_use(path, options) == output::ContactUse::all) {
+    throw std::invalid_argument("contacts: were not kept; simulate with contacts=True");
+  }
+  without_gil([&] { output::write_trajectory(trajectory, path, options); });
+}
+
+void save_record(const std::string& npz, const std::string& path, const std::string& format, int width, int height,
+                 double speed, const std::string& page) {
+  const output::WriteOptions options = as_options(format, width, height, speed, page);
+  without_gil([&] { output::write_record(output::parse_record_npz(npz, "record"), path, options); });
+}
+
 }  // namespace
 }  // namespace tumble::python
 
 PYBIND11_MODULE(_output, module) {
   using namespace pybind11::literals;
-  module.doc() = "Compiled part of tumble; see tumble.Trajectory.save.";
-  module.def("save", &tumble::python::save, "trajectory"_a, "path"_a, "format"_a, "width"_a, "height"_a, "speed"_a,
-             "has_contacts"_a);
+  using namespace tumble;
+  module.doc() = "Compiled part of tumble; see save of tumble.Trajectory and of tumble.drop.Record.";
+  module.attr("mode_names") = output::names_of_codes<ContactMode>(static_cast<int>(output::k_contact_modes.size()));
+  module.attr("status_names") = output::names_of_codes<LcpStatus>(static_cast<int>(k_lcp_statuses.size()));
+  module.def("save", &python::save, "trajectory"_a, "has_contacts"_a, "path"_a, "format"_a, "width"_a, "height"_a,
+             "speed"_a, "page"_a);
+  module.def("save_record", &python::save_record, "npz"_a, "path"_a, "format"_a, "width"_a, "height"_a, "speed"_a,
+             "page"_a);
 }

@@ -4,6 +4,7 @@
 
 #include "tumble/output/csv.hpp"
 #include "tumble/output/drop_trajectory.hpp"
+#include "tumble/output/trajectory_csv.hpp"
 #include "tumble/scene/scene_toml.hpp"
 #include "tumble/trajectory/scene_warnings.hpp"
 
@@ -63,6 +64,15 @@ val read_record(const std::string& text, const std::string& name) {
   return guarded([&] { return Run::of_record(output::parse_record_csv(text, name)); });
 }
 
+val read_trajectory(const std::string& toml, const std::string& samples, const std::string& samples_name,
+                    const std::string& contacts, const std::string& contacts_name) {
+  return guarded([&] {
+    Trajectory trajectory =
+        output::parse_trajectory_csv(parse_scene(toml), samples, samples_name, contacts, contacts_name);
+    return Run::of_trajectory(std::move(trajectory));
+  });
+}
+
 val describe_scene(const std::string& toml, const std::string& name) {
   return guarded([&] { return describe(parse_scene(toml, name)); });
 }
@@ -107,6 +117,7 @@ EMSCRIPTEN_BINDINGS(tumble) {
       .smart_ptr<std::shared_ptr<Run>>("Run")
       .function("trajectory", &Run::trajectory)
       .function("record", &Run::record)
+      .function("body_series", &Run::body_series)
       .function("problem", &problem)
       .function("impulse_planes", &impulse_planes)
       .function("csv", &csv);
@@ -118,6 +129,7 @@ EMSCRIPTEN_BINDINGS(tumble) {
   function("drop_as_scene", &drop_as_scene);
   function("simulate_scene", &simulate_scene);
   function("read_record", &read_record);
+  function("read_trajectory", &read_trajectory);
   function("describe_scene", &describe_scene);
   function("edit_scene", &edit_scene);
   function("warnings_of_scene", &warnings_of_scene);

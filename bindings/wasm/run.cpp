@@ -1,6 +1,9 @@
 #include "run.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
 
 #include "tumble/explain/lemke_pages.hpp"
 #include "tumble/explain/step_problem.hpp"
@@ -114,7 +117,40 @@ std::shared_ptr<Run> Run::of_trajectory(Trajectory trajectory) {
   return run;
 }
 
-val Run::trajectory() const { return wasm::to_object(output::to_fields(trajectory_)); }
+val Run::trajectory() const {
+  val object = wasm::to_object(output::to_fields(trajectory_));
+  std::vector<double> mechanical, friction_loss, impact_loss;
+  double friction = 0.0, impact = 0.0;
+  for (const EnergyLedger& energy : trajectory_.energy) {
+    mechanical.push_back(energy.kinetic + energy.potential);
+    friction_loss.push_back(friction += energy.friction_loss);
+    impact_loss.push_back(impact += energy.impact_loss);
+  }
+  object.set("mechanical", to_typed_array(mechanical));
+  object.set("total_friction_loss", to_typed_array(friction_loss));
+  object.set("total_impact_loss", to_typed_array(impact_loss));
+  return object;
+}
+
+val Run::body_series(int body) const {
+  const Index T = trajectory_.time.size();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> normal(T, none), friction(T, none), gap(T, none);
+  for (Index k = 0; k < T; ++k) {
+    for (const ContactRecord& record : contacts_from(trajectory_, k)) {
+      if (record.contact.body_a != body && record.contact.body_b != body) continue;
+      const bool is_first = std::isnan(gap[k]);
+      normal[k] = (is_first ? 0.0 : normal[k]) + record.normal_impulse;
+      friction[k] = (is_first ? 0.0 : friction[k]) + std::abs(record.friction_impulse);
+      gap[k] = is_first ? record.contact.gap : std::min(gap[k], record.contact.gap);
+    }
+  }
+  val object = val::object();
+  object.set("normal_impulse", to_typed_array(normal));
+  object.set("friction_impulse", to_typed_array(friction));
+  object.set("gap", to_typed_array(gap));
+  return object;
+}
 
 val Run::record() const { return record_ ? wasm::to_object(output::to_fields(*record_)) : val::null(); }
 

@@ -18,9 +18,14 @@ class Run {
   static std::shared_ptr<Run> of_record(drop::Record record);
   static std::shared_ptr<Run> of_trajectory(Trajectory trajectory);
 
-  // All arrays by name, as in .npz files: of a scene, which the drop is one of; of the drop's record, or null.
+  // All arrays by name, as in .npz files: of a scene, which the drop is one of, with the sums that are drawn; of the
+  // drop's record, or null.
   val trajectory() const;
   val record() const;
+
+  // What the contacts of a body do, over the samples: sums of impulses [N s] and the least gap [m] of the step that
+  // leaves each; NaN where there is none.
+  val body_series(int body) const;
 
   // The LCP of the step that leaves sample k, its solution, and Lemke's pivots on it; null if there is none to show.
   val problem(int k) const;

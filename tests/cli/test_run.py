@@ -195,7 +195,7 @@ def test_created_energy_is_flagged_with_its_time(folder: Path) -> None:
     [
         (["none.toml"], "cannot read none.toml: No such file or directory"),
         (["."], "cannot read .: Is a directory"),
-        (["ball.toml", "-o", "a.txt"], "a.txt: the name must end in .contacts.csv, .csv, .npz, .h5, .gif, .mp4, .png or .svg"),
+        (["ball.toml", "-o", "a.txt"], "a.txt: the name must end in .contacts.csv, .csv, .npz, .h5, .gif, .mp4, .png, .svg or .html"),
         (["ball.toml", "-o", "none/a.csv"], "none/a.csv: the folder none cannot be used"),
         (["ball.toml", "-o", "old.csv"], "old.csv: already exists; --force replaces it"),
         (["ball.toml", "-o", "a.csv", "-o", "./a.csv"], "--output: ./a.csv is named twice"),

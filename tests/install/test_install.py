@@ -76,6 +76,11 @@ def test_pkg_config(prefix: Path, tmp_path: Path) -> None:
     check_output(run(tmp_path / "consumer"))
 
 
+def test_the_page_is_installed_if_it_was_built(prefix: Path) -> None:
+    page = Path("share/tumble/tumble.html")
+    assert (prefix / page).is_file() == (BUILD / page).is_file()
+
+
 def test_installed_program_runs(prefix: Path) -> None:
     assert run(prefix / "bin/tumble", "--version").startswith("tumble ")
 

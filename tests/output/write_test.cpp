@@ -71,10 +71,10 @@ TEST(Write, RefusesBeforeAnythingIsSimulated) {
     EXPECT_EQ(text.find('\n'), std::string::npos);
     return text;
   };
-  EXPECT_TRUE(has(refusal("run.txt"), "the name must end in .csv, .npz, .h5, .gif, .mp4, .png or .svg"));
+  EXPECT_TRUE(has(refusal("run.txt"), "the name must end in .csv, .npz, .h5, .gif, .mp4, .png, .svg or .html"));
   EXPECT_TRUE(has(refusal("run"), "the name must end in"));
-  EXPECT_TRUE(
-      has(refusal("run.csv", {.format = "avi"}), "format: must be csv, npz, h5, gif, mp4, png or svg, got 'avi'"));
+  EXPECT_TRUE(has(refusal("run.csv", {.format = "avi"}),
+                  "format: must be csv, npz, h5, gif, mp4, png, svg or html, got 'avi'"));
   EXPECT_TRUE(has(refusal("none/run.csv"), "none cannot be used: No such file or directory"));
   EXPECT_TRUE(
       has(refusal("run.gif", {.width = 159}), "width: must be 0 (chosen for you) or in [160, 4096] px, got 159"));

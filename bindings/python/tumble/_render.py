@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import subprocess
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from tumble import _core
 from tumble._core import Parameters
 from tumble._files import complete_file
+from tumble._view import in_notebook
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -56,7 +56,7 @@ def render(
     poses = _as_poses(q)
     if save is not None:
         return _save(poses, params, Path(save))
-    if _in_notebook():
+    if in_notebook():
         from IPython.display import HTML
 
         animation, close = _animate(poses, params)
@@ -87,12 +87,6 @@ def _as_poses(q: ArrayLike) -> NDArray[np.float64]:
         row, column = np.argwhere(~np.isfinite(poses))[0]
         raise ValueError(f"q[{row}][{column}]: must be finite, got {poses[row, column]}")
     return poses.astype(np.float64)
-
-
-def _in_notebook() -> bool:
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython is not None else None
-    return type(shell).__name__ == "ZMQInteractiveShell"
 
 
 def _has_window() -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 import os
 from functools import cached_property
 from pathlib import Path
@@ -13,16 +12,11 @@ from numpy.typing import NDArray
 
 from tumble import _core
 from tumble._bodies import Body
+from tumble._files import as_target, output_module
 from tumble._scene import Scene
+from tumble._view import Page, view
 
 BodyName = Union[str, int, Body]
-
-
-def _as_pixels(value: Any, field: str) -> int:
-    try:
-        return max(-1, min(operator.index(value), 1_000_000))  # what C++ refuses fits into its int
-    except TypeError:
-        raise TypeError(f"{field}: must be a whole number, got {value!r:.40}") from None
 
 
 def index_of(scene: Scene, body: BodyName) -> int:
@@ -217,7 +211,7 @@ class Trajectory:
         ----------
         path : path
             Its ending says what: ``.gif`` and ``.mp4`` (with ffmpeg) a film in real time, ``.png`` and ``.svg`` poses and
-            paths in one picture; ``.csv`` bodies and energies over time, ``.contacts.csv`` contacts over time, ``.npz`` and
+            paths in one picture; ``.html`` a page that plays the run in a browser (see `view`); ``.csv`` bodies and energies over time, ``.contacts.csv`` contacts over time, ``.npz`` and
             ``.h5`` (with HDF5) all of it.
         format : str, optional
             Such an ending without its first dot, whatever the path ends in.
@@ -235,20 +229,37 @@ class Trajectory:
         ValueError
             For an unknown ending or a size out of range.
         OSError
-            If the file cannot be written.
+            If the file cannot be written, or there is no page for an ``.html``.
         ImportError
             If the package was built without the libraries for files and pictures.
         """
-        try:
-            from tumble import _output
-        except ImportError as error:
-            text = "save: this package was built without cairo, giflib or zlib; install these, then build it again"
-            raise ImportError(text) from error
-        size = _as_pixels(width, "width"), _as_pixels(height, "height")
-        if not isinstance(speed, (int, float, np.number)):
-            raise TypeError(f"speed: must be a number, got {speed!r:.40}")
-        _output.save(self._core, os.fsencode(path), str(format), *size, float(speed), self._has_contacts)
+        module = output_module()
+        module.save(self._core, self._has_contacts, *as_target(path, format, width, height, speed))
         return Path(os.fsdecode(path))
+
+    def view(self, path: str | os.PathLike[str] | None = None) -> Path | Page:
+        """Play the run in a browser, or in the notebook: as a page with everything in it, which `make viewer` builds.
+
+        Parameters
+        ----------
+        path : path, optional
+            Keep the page here; must end in ``.html``. A temporary file if left out.
+
+        Returns
+        -------
+        Path or Page
+            The file that the browser shows; in a notebook, what the notebook shows.
+
+        Raises
+        ------
+        ValueError
+            For another ending.
+        OSError
+            If there is no page, or the file cannot be written.
+        ImportError
+            If the package was built without the libraries for files and pictures.
+        """
+        return view(self.save, path)
 
     def __repr__(self) -> str:
         end = "complete" if self.is_complete else f"ended early, last step {self.status}"

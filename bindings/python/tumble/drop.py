@@ -14,14 +14,19 @@ tangent +x. Every function also takes ``params=``.
 
 from __future__ import annotations
 
+import io
+import os
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tumble import _core
 from tumble._core import NoSolution, Parameters
+from tumble._files import as_target, output_module
 from tumble._render import render
+from tumble._view import Page, view
 
 __all__ = [
     "NoSolution",
@@ -256,6 +261,52 @@ class Record:
     residual: NDArray[np.float64]
     kinetic: NDArray[np.float64]
     potential: NDArray[np.float64]
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        format: str = "",
+        width: int = 0,
+        height: int = 0,
+        speed: float = 1.0,
+    ) -> Path:
+        """Write a file; an existing one is replaced, once the new one is complete. docs/formats.md says what is in it.
+
+        Parameters
+        ----------
+        path : path
+            Its ending says what: ``.csv``, ``.npz`` and ``.h5`` (with HDF5) the record, as ``tumble render`` reads it;
+            ``.gif`` and ``.mp4`` (with ffmpeg) a film in real time, ``.png`` and ``.svg`` poses in one picture;
+            ``.html`` a page that plays the drop in a browser (see `view`).
+        format, width, height, speed
+            As of `tumble.Trajectory.save`, which also says what is raised.
+
+        Returns
+        -------
+        Path
+        """
+        output_module().save_record(_npz_of(self), *as_target(path, format, width, height, speed))
+        return Path(os.fsdecode(path))
+
+    def view(self, path: str | os.PathLike[str] | None = None) -> Path | Page:
+        """Play the drop in a browser, or in the notebook, as `tumble.Trajectory.view` does with runs of scenes."""
+        return view(self.save, path)
+
+
+def _npz_of(record: Record) -> bytes:
+    """The record as the array file of docs/formats.md, which C++ checks and reads."""
+    output, params = output_module(), record.params
+    statuses = [output.status_names.index(status) for status in record.status]
+    file = io.BytesIO()
+    np.savez(
+        file, q=record.q, v=record.v, gap=record.gap, corner=record.corner, residual=record.residual,
+        z=np.array([record.f_n, record.f_t1, record.f_t2, record.slip_speed]),
+        mode=[output.mode_names.index(mode) for mode in record.mode], status=statuses,
+        columns=params.columns, trajectory_status=statuses[-1],
+        l=params.l, m=params.m, mu=params.mu, eps=params.eps, dt=params.dt, delta=params.delta, g=params.g,
+    )  # fmt: skip
+    return file.getvalue()
 
 
 def record(q0: ArrayLike, v0: ArrayLike, params: Parameters = _DEFAULTS) -> Record:

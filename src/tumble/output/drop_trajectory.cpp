@@ -9,6 +9,7 @@
 namespace tumble::output {
 namespace {
 
+// In the step from this column to the next.
 ContactRecord contact_of(const drop::Record& record, int column) {
   const drop::Parameters& p = record.parameters;
   const drop::StepRecord& step = record.steps[static_cast<std::size_t>(column)];
@@ -23,6 +24,13 @@ ContactRecord contact_of(const drop::Record& record, int column) {
   result.contact.feature = static_cast<std::uint32_t>(step.corner);
   result.contact.body_b = 1;
   result.law = {p.mu, p.mu, p.eps};
+  const drop::Jacobian J = drop::get_contacts(record.trajectory.q_at(column), p).J;
+  const Vector3 before = record.trajectory.v_at(column), after = record.trajectory.v_at(column + 1);
+  result.normal_velocity = dot(J.n, before);
+  result.tangential_velocity = dot(J.t, before);
+  result.normal_velocity_after = dot(J.n, after);
+  result.tangential_velocity_after = dot(J.t, after);
+  result.restitution = p.eps;
   result.normal_impulse = step.z[0] * p.dt;
   result.friction_impulse = (step.z[2] - step.z[1]) * p.dt;
   result.mode = step.mode;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "tumble/trajectory/trajectory.hpp"
 
@@ -19,5 +20,13 @@ std::string samples_csv_rows(const Trajectory& trajectory, std::size_t first, st
 std::string contacts_csv_header(const Trajectory& trajectory);
 // Those of the entries [first, last) of `trajectory.contacts`.
 std::string contacts_csv_rows(const Trajectory& trajectory, std::size_t first, std::size_t last);
+
+// Reads both tables of a run of `scene` back: written again they have the same bits. Without `contacts` ("") there are
+// none. What is in neither table is as before a run, but that fixed bodies stand in their places, tangents are normals
+// turned right, and impulses act at the points. The names stand for the tables in messages. Throws
+// std::invalid_argument "name:line:column: field: what is allowed, what is there" for all that no run of this scene
+// can have written, a file that was cut off included, and as `validate` for a bad scene.
+Trajectory parse_trajectory_csv(Scene scene, std::string_view samples, const std::string& samples_name,
+                                std::string_view contacts = {}, const std::string& contacts_name = "contacts");
 
 }  // namespace tumble::output

@@ -10,7 +10,6 @@ namespace tumble::output {
 namespace {
 
 constexpr int k_format_version = 1;
-constexpr int k_mode_count = 4;
 
 using Codes = std::vector<std::int32_t>;
 using Numbers = std::vector<std::int64_t>;
@@ -134,7 +133,7 @@ void check_trajectory(const Trajectory& trajectory) {
 std::vector<Field> to_fields(const Trajectory& trajectory) {
   check_trajectory(trajectory);
   const std::vector<std::string> labels = body_labels(trajectory.scene);
-  const std::vector<std::string> modes = names_of_codes<ContactMode>(k_mode_count);
+  const std::vector<std::string> modes = names_of_codes<ContactMode>(static_cast<int>(k_contact_modes.size()));
   std::vector<Field> fields = {
       {"format_version", "", {}, Codes{k_format_version}},
       {"scene", "", {}, std::vector<std::string>{to_toml(trajectory.scene)}},

@@ -9,6 +9,9 @@
 
 namespace tumble::output {
 
+inline constexpr std::array<ContactMode, 4> k_contact_modes = {ContactMode::open, ContactMode::stick,
+                                                               ContactMode::slip_left, ContactMode::slip_right};
+
 struct EnergyField {
   const char* name;
   double EnergyLedger::*member;  // [J]
@@ -28,21 +31,23 @@ inline constexpr std::array<EnergyField, 8> k_energy_fields = {
 struct ContactField {
   const char* name;
   const char* unit;
-  double (*value)(const ContactRecord& record);
+  double* (*place)(ContactRecord& record);
+
+  double value(const ContactRecord& record) const { return *place(const_cast<ContactRecord&>(record)); }  // reads only
 };
 
 inline constexpr std::array<ContactField, 11> k_contact_fields = {
-    {{"gap", "m", [](const ContactRecord& r) { return r.contact.gap; }},
-     {"normal_velocity", "m/s", [](const ContactRecord& r) { return r.normal_velocity; }},
-     {"tangential_velocity", "m/s", [](const ContactRecord& r) { return r.tangential_velocity; }},
-     {"normal_velocity_after", "m/s", [](const ContactRecord& r) { return r.normal_velocity_after; }},
-     {"tangential_velocity_after", "m/s", [](const ContactRecord& r) { return r.tangential_velocity_after; }},
-     {"normal_impulse", "N s", [](const ContactRecord& r) { return r.normal_impulse; }},
-     {"friction_impulse", "N s", [](const ContactRecord& r) { return r.friction_impulse; }},
-     {"restitution", "", [](const ContactRecord& r) { return r.restitution; }},
-     {"law_friction", "", [](const ContactRecord& r) { return r.law.friction; }},
-     {"law_static_friction", "", [](const ContactRecord& r) { return r.law.static_friction; }},
-     {"law_restitution", "", [](const ContactRecord& r) { return r.law.restitution; }}}};
+    {{"gap", "m", [](ContactRecord& r) { return &r.contact.gap; }},
+     {"normal_velocity", "m/s", [](ContactRecord& r) { return &r.normal_velocity; }},
+     {"tangential_velocity", "m/s", [](ContactRecord& r) { return &r.tangential_velocity; }},
+     {"normal_velocity_after", "m/s", [](ContactRecord& r) { return &r.normal_velocity_after; }},
+     {"tangential_velocity_after", "m/s", [](ContactRecord& r) { return &r.tangential_velocity_after; }},
+     {"normal_impulse", "N s", [](ContactRecord& r) { return &r.normal_impulse; }},
+     {"friction_impulse", "N s", [](ContactRecord& r) { return &r.friction_impulse; }},
+     {"restitution", "", [](ContactRecord& r) { return &r.restitution; }},
+     {"law_friction", "", [](ContactRecord& r) { return &r.law.friction; }},
+     {"law_static_friction", "", [](ContactRecord& r) { return &r.law.static_friction; }},
+     {"law_restitution", "", [](ContactRecord& r) { return &r.law.restitution; }}}};
 
 // Throws std::invalid_argument if the sizes within the trajectory disagree, or a contact is of no body or step.
 void check_trajectory(const Trajectory& trajectory);

@@ -6,6 +6,7 @@
 #include <span>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@
 #include "tumble/output/file.hpp"
 #include "tumble/output/gif.hpp"
 #include "tumble/output/hdf5.hpp"
+#include "tumble/output/html.hpp"
 #include "tumble/output/mp4.hpp"
 #include "tumble/output/npz.hpp"
 #include "tumble/output/record_fields.hpp"
@@ -25,7 +27,7 @@
 namespace tumble::output {
 namespace {
 
-enum class Format { csv, contacts_csv, npz, h5, gif, mp4, png, svg };
+enum class Format { csv, contacts_csv, npz, h5, gif, mp4, png, svg, html };
 
 struct NamedFormat {
   std::string_view name;  // the ending of a file, too
@@ -33,17 +35,19 @@ struct NamedFormat {
 };
 using Formats = std::span<const NamedFormat>;
 
-constexpr std::array<NamedFormat, 8> k_trajectory_formats = {{{"contacts.csv", Format::contacts_csv},  // before csv
+constexpr std::array<NamedFormat, 9> k_trajectory_formats = {{{"contacts.csv", Format::contacts_csv},  // before csv
                                                               {"csv", Format::csv},
                                                               {"npz", Format::npz},
                                                               {"h5", Format::h5},
                                                               {"gif", Format::gif},
                                                               {"mp4", Format::mp4},
                                                               {"png", Format::png},
-                                                              {"svg", Format::svg}}};
+                                                              {"svg", Format::svg},
+                                                              {"html", Format::html}}};
 constexpr Formats k_record_formats = Formats(k_trajectory_formats).subspan(1);  // all but the one of contacts
 
-constexpr std::size_t k_max_bytes_read = std::size_t{4} << 30;  // 4 GiB
+constexpr std::size_t k_max_bytes_read = std::size_t{4} << 30;   // 4 GiB
+constexpr std::size_t k_max_page_bytes = std::size_t{64} << 20;  // 64 MiB
 
 struct Size {
   int width;
@@ -110,11 +114,25 @@ Size animation_size(const WriteOptions& options, Format format) {
   return animation_size(options, format == Format::mp4 ? k_mp4_size : k_gif_size);
 }
 
+// The page of an .html, checked.
+std::string read_page(const std::filesystem::path& path) {
+  std::string page;
+  try {
+    page = read_file(path, k_max_page_bytes);
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(fmt::format("page: an .html needs the page that shows it: {}; `make viewer` builds it",
+                                         path.empty() ? "none was named" : error.what()));
+  }
+  check_page(page, path_text(path));
+  return page;
+}
+
 void check_options(const std::filesystem::path& path, const WriteOptions& options, Format format) {
   check_size("width", options.width);
   check_size("height", options.height);
   count_frames(0.0, options.speed, 1);
   if (format == Format::h5) check_hdf5();
+  if (format == Format::html) read_page(options.page);
   if (format != Format::mp4) return;
   check_ffmpeg();
   const Size size = animation_size(options, format);
@@ -215,6 +233,9 @@ void write_record(const drop::Record& record, const std::filesystem::path& path,
     OutputFile file(path, options.overwrite);
     write_csv(record, file);
     file.commit();
+  } else if (format == Format::html) {
+    const std::string html = to_html(record, read_page(options.page), path_text(options.page));
+    write_file_atomically(path, html, options.overwrite);
   } else {
     write_file_atomically(path, format == Format::npz ? to_npz(record) : to_hdf5(record), options.overwrite);
   }
@@ -232,6 +253,9 @@ void write_trajectory(const Trajectory& trajectory, const std::filesystem::path&
   check_trajectory_writable(path, options, trajectory.time.back());
   if (is_picture(format)) {
     write_picture(trajectory, path, options, format);
+  } else if (format == Format::html) {
+    const std::string html = to_html(trajectory, read_page(options.page), path_text(options.page));
+    write_file_atomically(path, html, options.overwrite);
   } else if (format == Format::npz || format == Format::h5) {
     write_file_atomically(path, format == Format::npz ? to_npz(trajectory) : to_hdf5(trajectory), options.overwrite);
   } else {

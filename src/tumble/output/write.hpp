@@ -14,15 +14,16 @@ inline constexpr int k_largest_picture = 4096;
 
 struct WriteOptions {
   bool overwrite = false;
-  std::string format{};  // csv, npz, h5, gif, mp4, png or svg, for trajectories also contacts.csv; empty: by the ending
-                         // of the name
+  std::string format{};  // csv, npz, h5, gif, mp4, png, svg or html, for trajectories also contacts.csv; empty: by the
+                         // ending of the name
   int width = 0;         // of a picture [px]; 0: chosen for the format, for png and svg by the shape of the path
   int height = 0;        // [px]
   double speed = 1.0;    // of an animation: seconds of the motion per second of the film, > 0
+  std::filesystem::path page{};  // of an .html: the page that is to show the run, see html.hpp
 };
 
 // What can be said before a simulation: format and sizes are allowed, the folder exists and is writable, no
-// file is in the way unless it may be overwritten, ffmpeg is there if it is needed. Throws
+// file is in the way unless it may be overwritten, ffmpeg or the page is there if it is needed. Throws
 // std::invalid_argument, and std::runtime_error for what this machine or this build lacks.
 void check_writable(const std::filesystem::path& path, const WriteOptions& options = {});
 
