@@ -1,0 +1,129 @@
+// V, p, z and w of a complementarity problem as a table, with the one of each pair that is not 0 marked.
+import type { StepProblem } from 'tumble-engine';
+import { number, withUnit } from './format';
+import { element, plain, setFormula, setText } from './markup';
+
+// Of a pair (z_i, w_i): which is not 0.
+export type Nonzero = 'z' | 'w' | 'none';
+
+// What is left of sums that vanish is nothing beside their terms.
+const roundOff = 1e-9;
+
+export function nonzeroOfPairs({ V, p, z, w, z_units }: StepProblem): Nonzero[] {
+  const n = z.length;
+  return Array.from(z, (z_i, i) => {
+    let termSize = Math.abs(p[i] as number);
+    for (let j = 0; j < n; ++j) termSize += Math.abs((V[n * i + j] as number) * (z[j] as number));
+    const largest = Math.max(...Array.from(z).filter((_, j) => z_units[j] === z_units[i]).map(Math.abs));
+    const zPart = largest > 0 ? Math.abs(z_i) / largest : 0;
+    const wPart = termSize > 0 ? Math.abs(w[i] as number) / termSize : 0;
+    if (Math.max(zPart, wPart) <= roundOff) return 'none';
+    return zPart >= wPart ? 'z' : 'w';
+  });
+}
+
+export function pairWords(nonzero: Nonzero, i: number): string {
+  if (nonzero === 'none') return `z${i + 1} = 0 and w${i + 1} = 0`;
+  const [large, small] = nonzero === 'z' ? ['z', 'w'] : ['w', 'z'];
+  return `${large}${i + 1} > 0, so ${small}${i + 1} = 0`;
+}
+
+const mark = '●';
+
+interface Cell {
+  node: HTMLElement;
+  value: HTMLElement;
+  dot: HTMLElement;
+}
+
+interface Row {
+  V: HTMLElement[];
+  p: HTMLElement;
+  z: Cell;
+  w: Cell;
+  says: HTMLElement;
+}
+
+function column(scope: 'col' | 'colgroup', text: string, span = 1): HTMLTableCellElement {
+  const head = element('th');
+  head.scope = scope;
+  head.colSpan = span;
+  setFormula(head, text);
+  return head;
+}
+
+function valueCell(): Cell {
+  const [dot, value] = [element('span', 'inspector-dot'), element('span')];
+  dot.setAttribute('aria-hidden', 'true');
+  return { node: element('td', '', dot, value), value, dot };
+}
+
+function showValue({ node, value, dot }: Cell, name: string, x: number, unit: string, isNonzero: boolean): void {
+  setText(value, withUnit(isNonzero ? x : 0, unit));
+  setText(dot, isNonzero ? mark : '');
+  node.classList.toggle('inspector-nonzero', isNonzero);
+  node.title = `${plain(name)} = ${withUnit(x, unit)}${isNonzero ? ': the one of its pair that is not 0' : x === 0 ? '' : ', round-off'}`;
+}
+
+export class LcpTable {
+  private readonly caption = element('caption');
+  private readonly table = element('table', 'inspector-table', this.caption);
+  private readonly relation = element('p', 'inspector-note');
+  private rows: Row[] = [];
+  private names = '';
+
+  constructor(root: HTMLElement) {
+    const scroller = element('div', 'inspector-scroll', this.table);
+    scroller.tabIndex = 0;
+    scroller.setAttribute('role', 'region');
+    scroller.setAttribute('aria-label', 'The linear complementarity problem of this step');
+    root.append(scroller, this.relation);
+  }
+
+  show(problem: StepProblem): void {
+    const names = [...problem.z_names, ...problem.w_names].join();
+    if (names !== this.names) this.build(problem);
+    this.names = names;
+    const nonzero = nonzeroOfPairs(problem);
+    this.rows.forEach((row, i) => this.fill(row, i, problem, nonzero[i] as Nonzero));
+    setFormula(this.relation, `w = V z + p, z ≥ 0, w ≥ 0, z · w = 0; residual ${number(problem.residual, 2)}`);
+  }
+
+  private fill(row: Row, i: number, problem: StepProblem, nonzero: Nonzero): void {
+    const { V, p, z, w, z_names, z_units, w_names, w_units } = problem;
+    row.V.forEach((cell, j) => setText(cell, number(V[row.V.length * i + j] as number)));
+    setText(row.p, number(p[i] as number));
+    showValue(row.z, z_names[i] as string, z[i] as number, z_units[i] as string, nonzero === 'z');
+    showValue(row.w, w_names[i] as string, w[i] as number, w_units[i] as string, nonzero === 'w');
+    setFormula(row.says, pairWords(nonzero, i));
+  }
+
+  private build({ z_names, w_names }: StepProblem): void {
+    const n = z_names.length;
+    setFormula(this.caption, `w = V z + p, row by row. Of each pair of z and w one is 0; ${mark} marks the one that is not.`);
+    const first = column('col', 'w');
+    first.rowSpan = 2;
+    const groups = element('tr', '', first, column('colgroup', 'V, times', n));
+    const heads = element('tr', '', ...z_names.map((name) => column('col', name)));
+    for (const [text, span] of [['p', 1], ['z', 2], ['w', 1], ['the pair', 1]] as const) {
+      const head = column('col', text, span);
+      head.rowSpan = 2;
+      groups.append(head);
+    }
+    this.rows = z_names.map(() => ({
+      V: z_names.map(() => element('td')),
+      p: element('td'),
+      z: valueCell(),
+      w: valueCell(),
+      says: element('td', 'inspector-says'),
+    }));
+    const lines = this.rows.map((row, i) => {
+      const [name, zName] = [element('th', 'inspector-row-name'), element('td', 'inspector-symbol')];
+      name.scope = 'row';
+      setFormula(name, w_names[i] as string);
+      setFormula(zName, z_names[i] as string);
+      return element('tr', '', name, ...row.V, row.p, zName, row.z.node, row.w.node, row.says);
+    });
+    this.table.replaceChildren(this.caption, element('thead', '', groups, heads), element('tbody', '', ...lines));
+  }
+}
