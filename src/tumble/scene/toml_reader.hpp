@@ -13,6 +13,8 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include "tumble/scene/toml_charconv.hpp"  // before toml++
+
 #include <toml++/toml.h>
 
 #include "tumble/math/numeric.hpp"
