@@ -102,6 +102,7 @@ def test_pip_install_in_a_virtual_environment(tmp_path: Path) -> None:
     )
     where, numbers = run(python, "-c", code, env=clean, cwd=tmp_path).strip().splitlines()
     assert where.startswith(str(environment))
+    assert Path(where).with_name("tumble.html").is_file() == (ROOT / "build/python/tumble/tumble.html").is_file()
     check_output(numbers)
     help_text = run(python, "-m", "tumble.course", "--help", env=clean, cwd=tmp_path)
     assert "new" in help_text

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -78,7 +79,7 @@ PageText table(const std::string& name, std::string text, std::size_t count, Row
   return {name, std::move(text)};
 }
 
-// The page with this title in place of its own, which comes before all scripts.
+// The page with this title in place of its own, which stands in front of all scripts.
 std::string with_title(std::string_view page, std::string_view title) {
   constexpr std::string_view k_start = "<title>", k_end = "</title>";
   const std::size_t start = page.find(k_start), end = page.find(k_end);

@@ -26,8 +26,9 @@ void check_page(std::string_view page, const std::string& page_name);
 
 // The page with, in place of its marker, for each text
 //   <script type="text/plain" class="tumble-file" data-name="NAME">BASE64</script>
-// BASE64 [RFC 4648, one line] of the zlib stream [RFC 1950] of the text. `title`, if not empty, becomes that of the
-// page. Throws as check_page, and for a text of more than k_max_page_text bytes.
+// BASE64 [RFC 4648, one line] of the zlib stream [RFC 1950] of the text. `title`, if not empty, takes the
+// place of what is in the first <title> in front of the marker. Throws as check_page, and for a text of more than
+// k_max_page_text bytes.
 std::string fill_page(std::string_view page, const std::string& page_name, std::string_view title,
                       const std::vector<PageText>& texts);
 
