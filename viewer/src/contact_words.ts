@@ -17,6 +17,7 @@ export interface ContactText {
 export interface StepWords {
   step: string;
   summary: string; // where there is nothing to list
+  noProblem: string; // why there is no complementarity problem to show; '': there is one
   contacts: ContactText[];
   more: number; // contacts that are not listed
   spins: string[];
@@ -171,27 +172,50 @@ function touches(run: StepSource, sample: number): Map<number, Touch> {
   return result;
 }
 
+const turns = (before: Triple, after: Triple): boolean =>
+  Math.abs(after[2] - before[2]) > rest * Math.max(1, Math.abs(before[2]));
+
+// With as many digits as tell the two apart.
+function fromTo(from: number, to: number): string {
+  let digits = 3;
+  while (digits < 9 && number(from, digits) === number(to, digits)) ++digits;
+  return `from ${number(from, digits)} to ${number(to, digits)}`;
+}
+
 export function spinWords(name: string, touch: Touch, before: Triple, after: Triple): string {
   const [from, to] = [before[2], after[2]];
-  const isKept = Math.abs(to - from) <= rest * Math.max(1, Math.abs(from));
-  const omega = `omega goes from ${short(from)} to ${short(to, 'rad/s')}, ${to > from ? 'counter-clockwise' : 'clockwise'}`;
-  const kept = `omega stays ${short(from, 'rad/s')}`;
+  const omega = `${to > from ? 'counter-clockwise' : 'clockwise'}: omega goes ${fromTo(from, to)} rad/s`;
+  const isKept = !turns(before, after);
+  const kept = `omega stays ${short(Math.abs(from) > rest ? from : 0, 'rad/s')}`;
   if (touch.count > 1) {
     const impulses = `${name}: the impulses at its ${touch.count} contacts`;
-    return isKept ? `${impulses} do not turn it together: ${kept}.` : `${impulses} together turn it: ${omega}.`;
+    return isKept ? `${impulses} together do not turn it: ${kept}.` : `${impulses} together turn it ${omega}.`;
   }
   const arm = `r = (${short(touch.arm[0])}, ${short(touch.arm[1])}) m from the centre of mass`;
   if (isKept) return `${name}: the impulse acts at ${arm} and points through it: ${kept}.`;
-  return `${name}: the impulse acts at ${arm} and does not point through it. So it turns the body: ${omega}.`;
+  return `${name}: the impulse acts at ${arm} and does not point through it. So it turns the body ${omega}.`;
+}
+
+// Of many bodies only those that are turned are worth a sentence.
+function spinsOf(run: StepSource, sample: number): string[] {
+  const touched = [...touches(run, sample)];
+  const velocities = (body: number): [Triple, Triple] => [run.velocityAt(sample, body), run.velocityAt(sample + 1, body)];
+  const told = touched.length > 1 ? touched.filter(([body]) => turns(...velocities(body))) : touched;
+  if (told.length === 0 && touched.length > 1) return [`None of the ${touched.length} bodies with contacts is turned.`];
+  return told.slice(0, maxContacts).map(([body, touch]) => {
+    const name = run.scene.bodies[body]?.name ?? `body ${body}`;
+    return spinWords(name, touch, ...velocities(body));
+  });
 }
 
 export function stepWords(run: StepSource, sample: number): StepWords {
   const { time, step_size } = run.trajectory;
   const from = time[sample] as number;
-  const words: StepWords = { step: '', summary: '', contacts: [], more: 0, spins: [] };
+  const words: StepWords = { step: '', summary: '', noProblem: '', contacts: [], more: 0, spins: [] };
   if (sample + 1 >= run.length) {
     words.step = `The last sample, t = ${number(from)} s`;
     words.summary = 'The run ends here: no step leaves this sample.';
+    words.noProblem = 'The run ends here.';
     return words;
   }
   const to = time[sample + 1] as number;
@@ -206,14 +230,14 @@ export function stepWords(run: StepSource, sample: number): StepWords {
     if (close) words.contacts.push(close);
     else words.summary = noContact(run, sample);
   }
+  const numContacts = words.contacts.length + words.more;
+  if (numContacts === 0) words.noProblem = 'No contact in this step.';
+  if (words.more > 0)
+    words.noProblem = `${numContacts} contacts at once make a problem of ${4 * numContacts} rows, too many to show; up to ${maxContacts} contacts are shown.`;
   if (numSteps > 1) {
-    words.summary = `${words.summary} The next sample is ${numSteps} steps later: the problem of one step cannot be shown.`.trim();
+    words.noProblem = `The next sample is ${numSteps} steps later: the problem of one step cannot be shown.`;
     return words;
   }
-  for (const [body, touch] of touches(run, sample)) {
-    if (words.spins.length === maxContacts) break;
-    const name = run.scene.bodies[body]?.name ?? `body ${body}`;
-    words.spins.push(spinWords(name, touch, run.velocityAt(sample, body), run.velocityAt(sample + 1, body)));
-  }
+  words.spins = spinsOf(run, sample);
   return words;
 }

@@ -93,6 +93,19 @@ export function ticks([from, to]: [number, number], about: number): number[] {
   return values;
 }
 
+const superscript = (power: number): string =>
+  String(power).replace(/./g, (c) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)] ?? '⁻');
+
+// Ticks stay short: very small and very large impulses are counted in a power of ten.
+export function axisUnit({ t, n }: Range): { size: number; text: string } {
+  const power = Math.floor(Math.log10(Math.max(...[...t, ...n].map(Math.abs))));
+  if (power >= -2 && power < 4) return { size: 1, text: 'N s' };
+  return { size: Number(`1e${power}`), text: `10${superscript(power)} N s` };
+}
+
+// Where nothing bounces, the target is what closes the gap.
+const targetName = (plane: ImpulsePlane): string => (plane.u_n_target > 0 ? 'restitution' : 'gap closes');
+
 // What there is to see, in one sentence.
 export function planeWords(plane: ImpulsePlane): string {
   const { P_t, P_n, friction } = plane;
@@ -103,7 +116,7 @@ export function planeWords(plane: ImpulsePlane): string {
   const slack = friction * P_n - Math.abs(P_t);
   const cone = slack > relativeTolerance * friction * P_n ? 'inside' : 'on the edge of';
   const on = [
-    isOn(restitution, P) && (bounces(plane) ? 'the restitution line' : 'the line where compression ends'),
+    isOn(restitution, P) && (bounces(plane) ? `the line of its target (${targetName(plane)})` : 'the line where compression ends'),
     bounces(plane) && isOn(compression, P) && 'the line where compression ends',
     isOn(sticking, P) && 'the line of sticking',
   ].filter(Boolean);
@@ -158,10 +171,11 @@ interface Label {
 }
 
 const textSize = 12;
+const letterWidth = 0.64; // [textSize], of a wide bold font: a pen does not measure text
 
 // Beside its segment, where it covers least; null if nothing fits.
-function placed(label: Label, area: Box, labels: Box[], segments: Segment[]): Box | null {
-  const [width, height] = [0.56 * textSize * label.text.length, textSize + 2];
+function placed(label: Label, area: Box, labels: Box[], segments: Segment[], axes: Segment[]): Box | null {
+  const [width, height] = [letterWidth * textSize * label.text.length, textSize + 2];
   const [x0, y0, x1, y1] = label.at;
   let best: Box | null = null;
   let least = Infinity;
@@ -177,7 +191,8 @@ function placed(label: Label, area: Box, labels: Box[], segments: Segment[]): Bo
             box.left < other.right && other.left < box.right && box.top < other.bottom && other.top < box.bottom,
         ).length;
         const covers = segments.filter((segment) => clipped(segment, box)).length;
-        const cost = 100 * overlaps + 10 * covers + Math.abs(along - 0.75);
+        const crosses = axes.filter((segment) => clipped(segment, box)).length;
+        const cost = 100 * overlaps + 10 * covers + 3 * crosses + Math.abs(along - 0.75);
         if (cost < least) [best, least] = [box, cost];
       }
     }
@@ -185,13 +200,20 @@ function placed(label: Label, area: Box, labels: Box[], segments: Segment[]): Bo
   return least < 100 ? best : null;
 }
 
-function drawLabels(pen: Pen, labels: Label[], area: Box, segments: Segment[], theme: Theme): void {
+function drawLabels(
+  pen: Pen,
+  labels: Label[],
+  area: Box,
+  segments: Segment[],
+  axes: Segment[],
+  theme: Theme,
+): void {
   const boxes: Box[] = [];
   pen.font = font(textSize, '600');
   pen.textAlign = 'center';
   pen.textBaseline = 'middle';
   for (const label of labels) {
-    const box = placed(label, area, boxes, segments);
+    const box = placed(label, area, boxes, segments, axes);
     if (!box) continue;
     boxes.push(box);
     pen.save();
@@ -209,6 +231,8 @@ function drawLabels(pen: Pen, labels: Label[], area: Box, segments: Segment[], t
 type Map2 = (p: Point) => Point;
 
 function drawAxes(pen: Pen, range: Range, area: Box, at: Map2, theme: Theme): void {
+  const unit = axisUnit(range);
+  const tick = (value: number): string => number(value / unit.size, 3);
   pen.font = font(11);
   pen.lineWidth = 1;
   pen.setLineDash([]);
@@ -225,20 +249,20 @@ function drawAxes(pen: Pen, range: Range, area: Box, at: Map2, theme: Theme): vo
   for (const value of ticks(range.t, (area.right - area.left) / 65)) {
     const x = at([value, 0])[0];
     rule(value, x, area.top, x, area.bottom);
-    pen.fillText(number(value, 3), x, area.bottom + 4);
+    pen.fillText(tick(value), x, area.bottom + 4);
   }
   pen.textAlign = 'right';
   pen.textBaseline = 'middle';
   for (const value of ticks(range.n, (area.bottom - area.top) / 45)) {
     const y = at([0, value])[1];
     rule(value, area.left, y, area.right, y);
-    pen.fillText(number(value, 3), area.left - 5, y);
+    pen.fillText(tick(value), area.left - 5, y);
   }
   pen.fillStyle = theme.ink;
   pen.textBaseline = 'top';
-  pen.fillText('Pₜ [N s]', area.right, area.bottom + 19);
+  pen.fillText(`Pₜ [${unit.text}]`, area.right, area.bottom + 19);
   pen.textAlign = 'left';
-  pen.fillText('Pₙ [N s]', 4, 2);
+  pen.fillText(`Pₙ [${unit.text}]`, 4, 2);
 }
 
 function drawCone(pen: Pen, friction: number, range: Range, at: Map2, theme: Theme): Segment[] {
@@ -282,7 +306,7 @@ function styles(plane: ImpulsePlane, theme: Theme): { line: Line; name: string; 
   const stick = { line: sticking, name: 'sticking', colour: theme.stick, dash: [2, 4] };
   const end = { line: compression, name: isOne ? 'compression ends' : 'compression', colour: theme['body-deep'], dash: [] };
   if (isOne) return [end, stick];
-  return [end, { line: restitution, name: 'restitution', colour: theme['other-deep'], dash: [8, 4] }, stick];
+  return [end, { line: restitution, name: targetName(plane), colour: theme['other-deep'], dash: [8, 4] }, stick];
 }
 
 export function drawImpulsePlane(pen: Pen, width: number, height: number, plane: ImpulsePlane, theme: Theme): void {
@@ -296,17 +320,22 @@ export function drawImpulsePlane(pen: Pen, width: number, height: number, plane:
   pen.rect(0, 0, width, height);
   pen.fill();
   drawAxes(pen, range, area, at, theme);
+  pen.save();
   pen.beginPath();
   pen.rect(area.left, area.top, area.right - area.left, area.bottom - area.top);
   pen.clip();
   const cone = drawCone(pen, plane.friction, range, at, theme);
   const segments = [...cone];
   const labels: Label[] = [];
+  const outside: string[] = [];
   pen.lineCap = 'round';
   for (const { line, name, colour, dash } of styles(plane, theme)) {
     const [from, to] = long(line, range).map(at) as [Point, Point];
     const segment = clipped([...from, ...to], area);
-    if (!segment) continue;
+    if (!segment) {
+      outside.push(name);
+      continue;
+    }
     pen.strokeStyle = colour;
     pen.lineWidth = 2;
     pen.setLineDash(dash);
@@ -323,6 +352,18 @@ export function drawImpulsePlane(pen: Pen, width: number, height: number, plane:
   labels.push({ text: 'P', colour: theme.ink, at: [...solution, ...solution] });
   const edge = clipped(cone[1] as Segment, area);
   if (edge) labels.push({ text: plane.friction > 0 ? 'friction cone' : 'no friction', colour: theme.muted, at: edge });
-  drawLabels(pen, labels.reverse(), area, segments, theme);
+  pen.restore();
+  const axes: Segment[] = [
+    [area.left, origin[1], area.right, origin[1]],
+    [origin[0], area.top, origin[0], area.bottom],
+  ];
+  drawLabels(pen, labels.reverse(), area, segments, axes, theme);
+  if (outside.length > 0) {
+    pen.font = font(11);
+    pen.fillStyle = theme.muted;
+    pen.textAlign = 'right';
+    pen.textBaseline = 'top';
+    pen.fillText(`outside: ${outside.join(', ')}`, area.right, 3);
+  }
   pen.restore();
 }

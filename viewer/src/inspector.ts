@@ -97,7 +97,7 @@ class PlaneView {
     const legend = element('p', 'inspector-note');
     setFormula(
       legend,
-      "P is what the contact gave. It lies in the friction cone |P_t| ≤ mu P_n. On the lines: compression, u_n' = 0; restitution, u_n' is its target; sticking, u_t' = 0.",
+      "P is what the contact gave. It lies in the friction cone |P_t| ≤ mu P_n. On the lines: compression, u_n' = 0; restitution, or closing of the gap, u_n' is its target; sticking, u_t' = 0.",
     );
     this.canvas.setAttribute('role', 'img');
     root.append(this.choice, this.canvas, legend);
@@ -206,19 +206,13 @@ export class Inspector {
     const planes = run.impulsePlanes(this.sample);
     const names = this.words(run).contacts.map(({ who }) => who);
     this.plane.show(planes, names);
-    return planes.length > 0 ? '' : this.nothing(run);
+    return planes.length > 0 ? '' : this.words(run).noProblem || 'No impulse in this step.';
   }
 
   private fillProblem(run: Run, view: LcpTable | LemkeView): string {
     if (this.cached.problem === undefined) this.cached.problem = run.problem(this.sample);
     const problem = this.cached.problem;
     if (problem) view.show(problem);
-    return problem ? '' : this.nothing(run);
-  }
-
-  private nothing(run: Run): string {
-    const { contacts, more, summary } = this.words(run);
-    if (summary) return summary;
-    return `${contacts.length + more} contacts are at work: a problem of ${4 * (contacts.length + more)} rows is too large to show here. Up to ${maxContacts} contacts are shown.`;
+    return problem ? '' : this.words(run).noProblem || 'No complementarity problem in this step.';
   }
 }

@@ -66,8 +66,8 @@ function showValue({ node, value, dot }: Cell, name: string, x: number, unit: st
 }
 
 export class LcpTable {
-  private readonly caption = element('caption');
-  private readonly table = element('table', 'inspector-table', this.caption);
+  private readonly caption = element('span');
+  private readonly table = element('table', 'inspector-table');
   private readonly relation = element('p', 'inspector-note');
   private rows: Row[] = [];
   private names = '';
@@ -124,6 +124,6 @@ export class LcpTable {
       setFormula(zName, z_names[i] as string);
       return element('tr', '', name, ...row.V, row.p, zName, row.z.node, row.w.node, row.says);
     });
-    this.table.replaceChildren(this.caption, element('thead', '', groups, heads), element('tbody', '', ...lines));
+    this.table.replaceChildren(element('caption', '', this.caption), element('thead', '', groups, heads), element('tbody', '', ...lines));
   }
 }

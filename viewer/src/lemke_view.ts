@@ -73,8 +73,9 @@ interface Line {
 export class LemkeView {
   private readonly title = element('span', 'inspector-pivot');
   private readonly words = element('p', 'inspector-pivot-words');
-  private readonly caption = element('caption');
+  private readonly caption = element('span');
   private readonly table = element('table', 'inspector-table inspector-tableau');
+  private readonly scroller = element('div', 'inspector-scroll', this.table);
   private readonly previous = button('‹', 'Previous pivot', () => this.go(-1));
   private readonly next = button('›', 'Next pivot', () => this.go(1));
   private columns: Head[] = [];
@@ -87,16 +88,15 @@ export class LemkeView {
     const stepper = element('div', 'inspector-stepper', this.previous, this.title, this.next);
     stepper.setAttribute('role', 'group');
     stepper.setAttribute('aria-label', 'Pivots');
-    const scroller = element('div', 'inspector-scroll', this.table);
-    scroller.tabIndex = 0;
-    scroller.setAttribute('role', 'region');
-    scroller.setAttribute('aria-label', 'Tableau');
+    this.scroller.tabIndex = 0;
+    this.scroller.setAttribute('role', 'region');
+    this.scroller.setAttribute('aria-label', 'Tableau');
     const note = element('p', 'inspector-note');
     setFormula(
       note,
       'A row reads: basic variable + sum of entries times the variables above = value. Basic variables have unit columns, which are left out; all others are 0.',
     );
-    root.append(stepper, this.words, scroller, note);
+    root.append(stepper, this.words, this.scroller, note);
   }
 
   show(problem: StepProblem): void {
@@ -110,14 +110,29 @@ export class LemkeView {
     if (!problem) return;
     this.page = Math.max(0, Math.min(this.page + by, problem.pages.length - 1));
     this.draw(problem);
+    this.reveal();
+  }
+
+  // Scrolls sideways to the entering column, clear of the names of the rows.
+  private reveal(): void {
+    const column = this.columns.find(({ node }) => node.classList.contains('inspector-entering'))?.node;
+    if (!column) return;
+    const { offsetLeft, offsetWidth } = column;
+    const names = (this.lines[0] as Line).basic.node.offsetWidth;
+    const { scrollLeft, clientWidth } = this.scroller;
+    const least = offsetLeft + offsetWidth - clientWidth;
+    this.scroller.scrollLeft = Math.max(Math.min(scrollLeft, offsetLeft - names), least);
   }
 
   private draw(problem: StepProblem): void {
     const page = problem.pages[this.page] as LemkePage;
-    if (this.lines.length !== page.basis.length) this.build(page.basis.length);
+    if (this.lines.length !== page.basis.length) {
+      this.build(page.basis.length);
+      requestAnimationFrame(() => this.reveal()); // when it is laid out
+    }
     setText(this.title, pageTitle(problem, this.page));
     setFormula(this.words, pageWords(problem, this.page));
-    setFormula(this.caption, this.page === 0 ? 'Start: all w are basic' : `Tableau after pivot ${this.page}`);
+    setText(this.caption, this.page === 0 ? 'Start: all w are basic' : `Tableau after pivot ${this.page}`);
     // Not disabled: a button that is loses the focus of the keyboard.
     this.previous.setAttribute('aria-disabled', String(this.page === 0));
     this.next.setAttribute('aria-disabled', String(this.page + 1 === problem.pages.length));
@@ -170,6 +185,6 @@ export class LemkeView {
     });
     const heads = element('tr', '', fixed[0], ...this.columns.map(({ node }) => node), fixed[1], fixed[2]);
     const body = element('tbody', '', ...this.lines.map(({ node }) => node));
-    this.table.replaceChildren(this.caption, element('thead', '', heads), body);
+    this.table.replaceChildren(element('caption', '', this.caption), element('thead', '', heads), body);
   }
 }

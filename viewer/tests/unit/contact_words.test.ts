@@ -67,11 +67,14 @@ describe('why it spins', () => {
     const words = spinWords('square', { count: 1, arm: [0.0366, -0.1366] }, [0, -5, 0], [0, 2, 13.2]);
     expect(words).toContain('r = (0.0366, −0.137) m');
     expect(words).toContain('does not point through it');
-    expect(words).toContain('omega goes from 0 to 13.2 rad/s, counter-clockwise');
+    expect(words).toContain('turns the body counter-clockwise: omega goes from 0 to 13.2 rad/s.');
+  });
+  it('shows enough digits to tell both apart', () => {
+    expect(spinWords('rod', { count: 1, arm: [1, 1] }, [0, 0, 1.3204], [0, 0, 1.3201])).toContain('from 1.3204 to 1.3201');
   });
   it('says when nothing turns', () => {
     expect(spinWords('disc', { count: 1, arm: [0, -1] }, [0, 0, 2], [0, 0, 2])).toContain('omega stays 2 rad/s');
-    expect(spinWords('box', { count: 2, arm: [1, -1] }, [0, 0, 0], [0, 0, 1e-17])).toContain('do not turn it together');
+    expect(spinWords('box', { count: 2, arm: [1, -1] }, [0, 0, 0], [0, 0, 1e-17])).toContain('together do not turn it');
   });
 });
 
@@ -121,8 +124,9 @@ describe('a step in words', () => {
     const words = stepWords(source(7, [0, -1], 1), 0);
     expect(words.contacts).toHaveLength(4);
     expect(words.more).toBe(3);
+    expect(words.noProblem).toMatch(/^7 contacts at once make a problem of 28 rows/);
     expect(words.spins).toEqual([
-      'box: the impulses at its 7 contacts together turn it: omega goes from 0 to 1 rad/s, counter-clockwise.',
+      'box: the impulses at its 7 contacts together turn it counter-clockwise: omega goes from 0 to 1 rad/s.',
     ]);
   });
   it('has a line for steps without contact, and for the end', () => {
@@ -133,7 +137,7 @@ describe('a step in words', () => {
     const run = source(1, [0, -1], 1);
     run.trajectory.step_size = 0.001;
     const words = stepWords(run, 0);
-    expect(words.summary).toContain('10 steps later');
+    expect(words.noProblem).toContain('10 steps later');
     expect(words.spins).toEqual([]);
   });
 });

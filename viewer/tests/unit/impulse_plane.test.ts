@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { bounces, drawImpulsePlane, fitted, planeRange, planeWords, ticks, type Range } from '../../src/impulse_plane';
+import { axisUnit, bounces, drawImpulsePlane, fitted, planeRange, planeWords, ticks, type Range } from '../../src/impulse_plane';
 import { SvgPen } from '../../src/pen';
 import type { Theme } from '../../src/theme';
 
@@ -40,10 +40,17 @@ describe('ticks', () => {
   it('are none for an empty range', () => expect(ticks([1, 1], 4)).toEqual([]));
 });
 
+describe('the unit of the axes', () => {
+  it('is N s, or a power of ten of it', () => {
+    expect(axisUnit({ t: [-1, 1], n: [0, 0.03] })).toEqual({ size: 1, text: 'N s' });
+    expect(axisUnit({ t: [-2e-5, 2e-5], n: [0, 9e-5] })).toEqual({ size: 1e-5, text: '10⁻⁵ N s' });
+  });
+});
+
 describe('the plane in one sentence', () => {
   it('says where the solution lies', () => {
     expect(planeWords(plane)).toBe(
-      'Impulse plane: the solution, P_t = 0.5 N s, P_n = 3 N s, lies inside the friction cone (mu = 0.3) and on the restitution line and the line of sticking.',
+      'Impulse plane: the solution, P_t = 0.5 N s, P_n = 3 N s, lies inside the friction cone (mu = 0.3) and on the line of its target (restitution) and the line of sticking.',
     );
     expect(planeWords({ ...plane, P_t: 0.9 })).toContain('on the edge of the friction cone');
   });
@@ -64,6 +71,12 @@ describe('the picture', () => {
     expect(texts(plane)).toEqual(
       expect.arrayContaining(['compression', 'restitution', 'sticking', 'friction cone', 'P', 'Pₜ [N s]', 'Pₙ [N s]']),
     );
+  });
+  it('does not speak of restitution where a gap closes', () => {
+    expect(texts({ ...plane, u_n_target: -1, P_n: 1 })).toContain('gap closes');
+  });
+  it('says which line is far away', () => {
+    expect(texts({ ...plane, u_t: -100 })).toContain('outside: sticking');
   });
   it('has one normal line where nothing bounces', () => {
     expect(texts({ ...plane, u_n_target: 0, P_n: 2 })).toContain('compression ends');
