@@ -15,6 +15,13 @@ add_library(fmt::fmt-header-only INTERFACE IMPORTED)
 target_include_directories(fmt::fmt-header-only SYSTEM INTERFACE ${TUMBLE_WASM_INCLUDE})
 target_compile_definitions(fmt::fmt-header-only INTERFACE FMT_HEADER_ONLY=1)
 
-# Exceptions carry the errors of bad input to the page.
-add_compile_options(-fexceptions)
-add_link_options(-fexceptions)
+# Exceptions carry the errors of bad input to the page. emscripten compiles code without landing pads, which is
+# smaller (an error costs what the callers in between had on the heap); files that catch ask for them.
+add_link_options(-fwasm-exceptions)
+
+# The page is one file, for which size counts more than the last of speed: these bits are those of every other build.
+string(REPLACE "-O3" "-Oz" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+add_compile_definitions(FMT_STATIC_THOUSANDS_SEPARATOR=',' FMT_USE_FLOAT=0 FMT_USE_LONG_DOUBLE=0 FMT_USE_INT128=0)
+foreach(error DOMAIN POLE OVERFLOW EVALUATION ROUNDING INDETERMINATE_RESULT)
+  add_compile_definitions(BOOST_MATH_${error}_ERROR_POLICY=ignore_error)  # their messages are made by streams
+endforeach()

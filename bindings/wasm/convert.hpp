@@ -19,6 +19,11 @@ namespace tumble::wasm {
 
 using emscripten::val;
 
+// Not inlined: each call would be a copy of val::set.
+[[gnu::noinline]] inline void set(val& object, const char* name, const val& value) { object.set(name, value); }
+[[gnu::noinline]] inline void set(val& object, const char* name, double value) { object.set(name, value); }
+[[gnu::noinline]] inline void set(val& object, const char* name, const std::string& value) { object.set(name, value); }
+
 // A typed array of its own memory.
 template <class Number>
 val to_typed_array(const std::vector<Number>& values) {
@@ -44,12 +49,12 @@ inline val to_object(const std::vector<output::Field>& fields) {
         [&](const auto& values) {
           using Value = typename std::decay_t<decltype(values)>::value_type;
           if constexpr (std::is_same_v<Value, std::string>) {
-            object.set(field.name, is_scalar ? val(values.front()) : to_array(values));
+            set(object, field.name.c_str(), is_scalar ? val(values.front()) : to_array(values));
           } else if constexpr (std::is_same_v<Value, std::int64_t>) {
             const std::vector<double> doubles(values.begin(), values.end());
-            object.set(field.name, is_scalar ? val(doubles.front()) : to_typed_array(doubles));
+            set(object, field.name.c_str(), is_scalar ? val(doubles.front()) : to_typed_array(doubles));
           } else {
-            object.set(field.name, is_scalar ? val(values.front()) : to_typed_array(values));
+            set(object, field.name.c_str(), is_scalar ? val(values.front()) : to_typed_array(values));
           }
         },
         field.values);
@@ -84,7 +89,7 @@ val guarded(Make make) {
     return val(make());
   } catch (const std::exception& error) {
     val object = val::object();
-    object.set("error", std::string(error.what()));
+    set(object, "error", std::string(error.what()));
     return object;
   }
 }

@@ -33,14 +33,14 @@ val to_object(const LemkePage& page) {
   val ratios = val::array();
   for (Index row = 0; row < n; ++row) ratios.set(row, page.ratios[row] ? val(*page.ratios[row]) : val::null());
   val object = val::object();
-  object.set("entered", variable(page.entered, n));
-  object.set("left", variable(page.left, n));
-  object.set("entering", variable(page.entering, n));
-  object.set("leaving", variable(page.leaving, n));
-  object.set("basis", variables(page.basis, n));
-  object.set("columns", variables(page.columns, n));
-  object.set("entries", to_typed_array(page.entries));
-  object.set("ratios", ratios);
+  set(object, "entered", variable(page.entered, n));
+  set(object, "left", variable(page.left, n));
+  set(object, "entering", variable(page.entering, n));
+  set(object, "leaving", variable(page.leaving, n));
+  set(object, "basis", variables(page.basis, n));
+  set(object, "columns", variables(page.columns, n));
+  set(object, "entries", to_typed_array(page.entries));
+  set(object, "ratios", ratios);
   return object;
 }
 
@@ -57,36 +57,36 @@ const char* name_of(LemkeEnd end) {
 val to_object(const StepProblem& shown) {
   if (shown.z.empty()) return val::null();
   val object = val::object();
-  object.set("V", to_typed_array(shown.problem.M));
-  object.set("p", to_typed_array(shown.problem.q));
-  object.set("z", to_typed_array(shown.z));
-  object.set("w", to_typed_array(shown.w));
-  object.set("z_names", to_array(shown.z_names));
-  object.set("z_units", to_array(shown.z_units));
-  object.set("w_names", to_array(shown.w_names));
-  object.set("w_units", to_array(shown.w_units));
-  object.set("residual", residual(shown.problem, shown.z).largest());
+  set(object, "V", to_typed_array(shown.problem.M));
+  set(object, "p", to_typed_array(shown.problem.q));
+  set(object, "z", to_typed_array(shown.z));
+  set(object, "w", to_typed_array(shown.w));
+  set(object, "z_names", to_array(shown.z_names));
+  set(object, "z_units", to_array(shown.z_units));
+  set(object, "w_names", to_array(shown.w_names));
+  set(object, "w_units", to_array(shown.w_units));
+  set(object, "residual", residual(shown.problem, shown.z).largest());
   const LemkeSettings settings;
   const LemkeTrace trace = trace_lemke(shown.problem, settings);
   const auto [pages, end] = lemke_pages(trace, shown.z.size(), settings);
   val array = val::array();
   for (Index k = 0; k < pages.size(); ++k) array.set(k, to_object(pages[k]));
-  object.set("pages", array);
-  object.set("end", std::string(name_of(end)));
+  set(object, "pages", array);
+  set(object, "end", std::string(name_of(end)));
   return object;
 }
 
 val to_object(const ImpulsePlane& plane) {
   val object = val::object();
-  object.set("A_nn", plane.A_nn);
-  object.set("A_nt", plane.A_nt);
-  object.set("A_tt", plane.A_tt);
-  object.set("u_n", plane.u_n);
-  object.set("u_t", plane.u_t);
-  object.set("u_n_target", plane.u_n_target);
-  object.set("friction", plane.friction);
-  object.set("P_n", plane.P_n);
-  object.set("P_t", plane.P_t);
+  set(object, "A_nn", plane.A_nn);
+  set(object, "A_nt", plane.A_nt);
+  set(object, "A_tt", plane.A_tt);
+  set(object, "u_n", plane.u_n);
+  set(object, "u_t", plane.u_t);
+  set(object, "u_n_target", plane.u_n_target);
+  set(object, "friction", plane.friction);
+  set(object, "P_n", plane.P_n);
+  set(object, "P_t", plane.P_t);
   return object;
 }
 
@@ -126,9 +126,9 @@ val Run::trajectory() const {
     friction_loss.push_back(friction += energy.friction_loss);
     impact_loss.push_back(impact += energy.impact_loss);
   }
-  object.set("mechanical", to_typed_array(mechanical));
-  object.set("total_friction_loss", to_typed_array(friction_loss));
-  object.set("total_impact_loss", to_typed_array(impact_loss));
+  set(object, "mechanical", to_typed_array(mechanical));
+  set(object, "total_friction_loss", to_typed_array(friction_loss));
+  set(object, "total_impact_loss", to_typed_array(impact_loss));
   return object;
 }
 
@@ -146,9 +146,9 @@ val Run::body_series(int body) const {
     }
   }
   val object = val::object();
-  object.set("normal_impulse", to_typed_array(normal));
-  object.set("friction_impulse", to_typed_array(friction));
-  object.set("gap", to_typed_array(gap));
+  set(object, "normal_impulse", to_typed_array(normal));
+  set(object, "friction_impulse", to_typed_array(friction));
+  set(object, "gap", to_typed_array(gap));
   return object;
 }
 

@@ -18,20 +18,20 @@ val points_of(const std::vector<Vector2>& points) {
 val describe(const Shape& shape) {
   val object = val::object();
   if (const auto* polygon = std::get_if<RoundedPolygon>(&shape)) {
-    object.set("kind", std::string("polygon"));
-    object.set("points", points_of(polygon->vertices));
-    object.set("rounding", polygon->rounding);
+    set(object, "kind", std::string("polygon"));
+    set(object, "points", points_of(polygon->vertices));
+    set(object, "rounding", polygon->rounding);
   } else if (const auto* ellipse = std::get_if<Ellipse>(&shape)) {
-    object.set("kind", std::string("ellipse"));
-    object.set("semi_axes", to_array(Vector2{ellipse->semi_axis_x, ellipse->semi_axis_y}));
-    object.set("pose", pose_of(ellipse->pose));
+    set(object, "kind", std::string("ellipse"));
+    set(object, "semi_axes", to_array(Vector2{ellipse->semi_axis_x, ellipse->semi_axis_y}));
+    set(object, "pose", pose_of(ellipse->pose));
   } else if (const auto* half_plane = std::get_if<HalfPlane>(&shape)) {
-    object.set("kind", std::string("half_plane"));
-    object.set("normal", to_array(half_plane->normal));
-    object.set("offset", half_plane->offset);
+    set(object, "kind", std::string("half_plane"));
+    set(object, "normal", to_array(half_plane->normal));
+    set(object, "offset", half_plane->offset);
   } else if (const auto* terrain = std::get_if<Terrain>(&shape)) {
-    object.set("kind", std::string("terrain"));
-    object.set("points", points_of(terrain->points));
+    set(object, "kind", std::string("terrain"));
+    set(object, "points", points_of(terrain->points));
   }
   return object;
 }
@@ -40,18 +40,18 @@ val describe(const Body& body, const std::string& label) {
   val parts = val::array();
   for (Index i = 0; i < body.parts.size(); ++i) {
     val part = describe(body.parts[i].shape);
-    part.set("material", body.parts[i].material);
-    part.set("surface_speed", body.parts[i].surface_speed);
+    set(part, "material", static_cast<double>(body.parts[i].material));
+    set(part, "surface_speed", body.parts[i].surface_speed);
     parts.set(i, part);
   }
   val object = val::object();
-  object.set("name", label);
-  object.set("kind", std::string(to_string(body.kind)));
-  object.set("mass", body.mass);
-  object.set("moment_of_inertia", body.moment_of_inertia);
-  object.set("pose", pose_of(body.pose));
-  object.set("velocity", to_array(body.velocity));
-  object.set("parts", parts);
+  set(object, "name", label);
+  set(object, "kind", std::string(to_string(body.kind)));
+  set(object, "mass", body.mass);
+  set(object, "moment_of_inertia", body.moment_of_inertia);
+  set(object, "pose", pose_of(body.pose));
+  set(object, "velocity", to_array(body.velocity));
+  set(object, "parts", parts);
   return object;
 }
 
@@ -104,19 +104,19 @@ val describe(const Scene& scene) {
   for (Index i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
     val object = val::object();
-    object.set("name", material.name);
-    object.set("friction", material.law.friction);
-    object.set("static_friction", material.law.static_friction);
-    object.set("restitution", material.law.restitution);
+    set(object, "name", material.name);
+    set(object, "friction", material.law.friction);
+    set(object, "static_friction", material.law.static_friction);
+    set(object, "restitution", material.law.restitution);
     materials.set(i, object);
   }
   val object = val::object();
-  object.set("title", scene.title);
-  object.set("bodies", bodies);
-  object.set("materials", materials);
-  object.set("gravity", to_array(scene.gravity));
-  object.set("step_size", scene.step_size);
-  object.set("duration", scene.duration);
+  set(object, "title", scene.title);
+  set(object, "bodies", bodies);
+  set(object, "materials", materials);
+  set(object, "gravity", to_array(scene.gravity));
+  set(object, "step_size", scene.step_size);
+  set(object, "duration", scene.duration);
   return object;
 }
 

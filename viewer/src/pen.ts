@@ -41,8 +41,9 @@ interface Style {
   clip: string;
 }
 
+// Control characters have no place in XML.
 const escaped = (text: string): string =>
-  text.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c] as string);
+  text.replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f]/g, '').replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c] as string);
 
 const short = (x: number): string => String(Math.round(x * 100) / 100);
 
@@ -88,10 +89,13 @@ export class SvgPen implements Pen {
   beginPath(): void {
     this.path = '';
   }
+  // A canvas takes no notice of what is not finite.
   moveTo(x: number, y: number): void {
+    if (!Number.isFinite(x + y)) return;
     this.path += `M${short(x)} ${short(y)}`;
   }
   lineTo(x: number, y: number): void {
+    if (!Number.isFinite(x + y)) return;
     this.path += `${this.path ? 'L' : 'M'}${short(x)} ${short(y)}`;
   }
   closePath(): void {
@@ -125,7 +129,8 @@ export class SvgPen implements Pen {
   }
   clip(): void {
     const id = `clip${++this.numClips}`;
-    this.elements.push(`<clipPath id="${id}"><path d="${this.path}"/></clipPath>`);
+    const inside = this.clipId ? ` clip-path="url(#${this.clipId})"` : '';
+    this.elements.push(`<clipPath id="${id}"${inside}><path d="${this.path}"/></clipPath>`);
     this.clipId = id;
   }
   fillText(text: string, x: number, y: number): void {

@@ -9,7 +9,14 @@ declare module 'gifenc' {
       index: Uint8Array,
       width: number,
       height: number,
-      options: { palette?: number[][]; delay?: number; repeat?: number },
+      options: {
+        palette?: number[][];
+        delay?: number; // [ms]
+        repeat?: number;
+        transparent?: boolean;
+        transparentIndex?: number;
+        dispose?: number;
+      },
     ): void;
     finish(): void;
     bytes(): Uint8Array;

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "tumble/lcp/body_modes.hpp"
-#include "tumble/lcp/solve.hpp"
+#include "tumble/lcp/rung.hpp"
+#include "tumble/math/numeric.hpp"
 
 namespace tumble {
 namespace {
@@ -128,8 +129,10 @@ struct IslandSolver::Parts {
 
   // By the general solver, which finds all that has a solution, but not as fast.
   LcpStatus search_dense(const ContactSystem& problem) {
-    const LcpResult& result = solve_lcp(as_lcp(problem), RobustSettings{}, lcp);
-    if (result.status == LcpStatus::bad_input) return LcpStatus::numerical;
+    const LcpProblem dense = as_lcp(problem);
+    if (!all_finite(dense.M) || !all_finite(dense.q)) return LcpStatus::numerical;
+    run_numerical(dense, RobustSettings{}, lcp);
+    const LcpResult& result = lcp.result;
     const Index m = problem.contacts.size();
     for (Index i = 0; i < m; ++i) {
       modes.impulses[2 * i] = result.z[i];

@@ -69,6 +69,10 @@ void solve_unscaled(const LcpProblem& problem, const Settings& settings, LcpWork
   if (!solve_trivially(problem, workspace)) run(problem, settings, workspace);
 }
 
+// The ladder without fractions and enumeration, of which contacts of a step have no need; on a valid problem with row
+// sizes.
+void run_numerical(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace);
+
 // The whole ladder, on a valid problem.
 void run_robust(const LcpProblem& problem, const RobustSettings& settings, LcpWorkspace& workspace);
 

@@ -2,7 +2,21 @@
 
 #include <vector>
 
+#ifdef __EMSCRIPTEN__
+// Eigen writes a number into a message through a stream, which would bring all locales into the browser's module.
+#include <Eigen/Core>
+
+namespace std {
+struct tumble_no_stream {
+  template <class Value>
+  void operator<<(const Value&) {}
+  string str() const { return {}; }
+};
+}  // namespace std
+#define ostringstream tumble_no_stream
+#endif
 #include <Eigen/SparseLU>
+#undef ostringstream
 
 namespace tumble {
 

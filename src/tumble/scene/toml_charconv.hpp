@@ -12,6 +12,7 @@
 #include "tumble/math/numeric.hpp"
 
 #define TOML_FLOAT_CHARCONV 1
+#define TOML_INT_CHARCONV 1
 
 // In std, since toml++ names them so; each is a declaration of the standard that is missing there [charconv.syn].
 namespace std {
