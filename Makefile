@@ -6,7 +6,7 @@ PYTHON := $(shell command -pv python3 || echo /usr/bin/python3)
 BUILD := build
 CMAKE := cmake -S . -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 
-.PHONY: all run test physics bench bench-lcp bench-scenes fuzz sanitize install clean help deps-build deps-python configure
+.PHONY: all run viewer bench-viewer test physics bench bench-lcp bench-scenes fuzz sanitize install clean help deps-build deps-python configure
 
 all: configure ## build the library, the program and the Python package
 	@cmake --build $(BUILD)
@@ -37,11 +37,33 @@ run: deps-build ## simulate the course's start; writes out/drop.csv, out/drop.gi
 	@echo "  $(BUILD)/bin/tumble run scenes/wall_and_ball.toml -o out/wall_and_ball.gif"
 	@echo "  $(BUILD)/bin/tumble run scenes/dominoes.toml -o out/dominoes.gif"
 	@echo "  $(BUILD)/bin/tumble run scenes/galton_board.toml -o out/galton_board.gif"
+	@if test -f out/tumble.html; then echo "  out/tumble.html: the same engine in the browser"; \
+	  else echo "  make viewer: the same engine in the browser, as one file, out/tumble.html"; fi
 	@echo "  $(BUILD)/bin/tumble --help"
 	@echo "  make && PYTHONPATH=$(BUILD)/python $(PYTHON) -c 'from tumble.drop import simulate; print(simulate([0, 1.5, 0.5], [0, -0.2, 0]))'"
 
-test: ## all tests; the last line is "N passed, N failed"
-	@scripts/deps.sh build python test
+WASM := build-wasm
+# emscripten runs a script of node-acorn, which a Node.js that is not Debian's does not find by itself.
+ACORN = $(shell dpkg -L node-acorn 2>/dev/null | sed -n 's,/acorn/package.json$$,,p')
+EMSCRIPTEN := /usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake
+
+viewer: ## the browser page with the engine inside: out/tumble.html, one file
+	@scripts/deps.sh build viewer
+	@NODE_PATH=$(ACORN) $(CMAKE) -B $(WASM) -DCMAKE_TOOLCHAIN_FILE=$(EMSCRIPTEN) -DTUMBLE_BUILD_WASM=ON -DTUMBLE_BUILD_HASH=ON \
+	  -DTUMBLE_BUILD_OUTPUT=OFF -DTUMBLE_BUILD_CLI=OFF -DTUMBLE_BUILD_PYTHON=OFF >/dev/null
+	@NODE_PATH=$(ACORN) cmake --build $(WASM)
+	@cd viewer && { test node_modules/.package-lock.json -nt package-lock.json || npm ci --ignore-scripts --no-progress; }
+	@cd viewer && npm run --silent build
+	@mkdir -p out $(BUILD)/share/tumble $(BUILD)/python/tumble
+	@for place in out $(BUILD)/share/tumble $(BUILD)/python/tumble; do cp viewer/dist/index.html $$place/tumble.html; done
+	@echo "wrote out/tumble.html ($$(gzip -9c out/tumble.html | wc -c) bytes compressed): open it in a browser"
+
+bench-viewer: viewer ## frame times, start and memory of the page in headless Chromium; writes out/bench-viewer.md
+	@scripts/deps.sh viewer-test
+	@cd viewer && node bench/bench.mjs ../out/tumble.html ../out/bench-viewer.md
+
+test: viewer ## all tests; the last line is "N passed, N failed"
+	@scripts/deps.sh build python test viewer-test
 	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_TESTS=ON -DTUMBLE_WERROR=ON >/dev/null
 	@cmake --build $(BUILD)
 	@$(PYTHON) scripts/run_tests.py --build $(BUILD)

@@ -24,7 +24,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 MAPS = ("ARCHITECTURE.md", "CONTRIBUTING.md", "README.md")
-MADE = re.compile(r"^(build|build-.*|out)$")  # folders that are not in the repository
+MADE = re.compile(r"^(build|build-.*|out|dist|node_modules)$")  # folders that are not in the repository
 PATH = re.compile(r"^[\w.+*-]+(/[\w.+*-]+)*/?$")
 LINK = re.compile(r"\]\(([^)\s]+)(?:\s+\"[^\"]*\")?\)")
 DOCTEST = "import doctest, sys; sys.exit(doctest.testfile('block.py', module_relative=False).failed > 0)"

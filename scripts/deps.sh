@@ -14,16 +14,22 @@ packages_of() {
     bench) echo "libbenchmark-dev" ;;
     bench-lcp) echo "libsiconos-numerics-dev libbullet-dev libdart-dev libfclib-dev" ;;
     bench-scenes) echo "libbox2d-dev libchipmunk-dev" ;;
+    viewer) echo "emscripten nodejs npm" ;;
+    viewer-test) echo "chromium" ;;
     fuzz) echo "clang-14 libclang-rt-14-dev" ;;
-    *) echo "deps.sh: unknown set '$1'; sets: build python test bench bench-lcp bench-scenes fuzz" >&2; exit 2 ;;
+    *) echo "deps.sh: unknown set '$1'; sets: build python test bench bench-lcp bench-scenes viewer viewer-test fuzz" >&2; exit 2 ;;
   esac
 }
 
 wanted=
 for set in "$@"; do wanted="$wanted $(packages_of "$set")"; done
 
+# These may come from elsewhere than Debian's packages.
+is_there() { case "$1" in nodejs) command -v node ;; npm) command -v npm ;; chromium) command -v chromium ;; *) false ;; esac >/dev/null; }
+
 missing=
 for package in $wanted; do
+  if is_there "$package"; then continue; fi
   case "$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)" in
     *"ok installed") ;;
     *) missing="$missing $package" ;;

@@ -1,4 +1,4 @@
-"""Run all tests of a build: C++ by CTest, the rest by pytest. The last line is "N passed, N failed" (", N skipped").
+"""Run all tests of a build: C++ by CTest, Python and program by pytest, page by vitest. The last line is "N passed, N failed" (", N skipped").
 
     python3 scripts/run_tests.py --build build
 """
@@ -29,7 +29,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=Path, default=ROOT / "build")
     build = parser.parse_args().build.resolve()
-    reports = [build / "ctest.xml", build / "pytest.xml"]
+    reports = [build / "ctest.xml", build / "pytest.xml", build / "vitest.xml"]
     for report in reports:
         report.unlink(missing_ok=True)
     environment = {
@@ -43,7 +43,9 @@ def main() -> int:
     # A file stays in one process, so that what its tests share is made once.
     two_processes = ["-n", "2", "--dist", "loadfile"]
     pytest = [sys.executable, "-m", "pytest", "-q", *two_processes, f"--junit-xml={reports[1]}", *FOLDERS]
-    codes = [subprocess.run(command, cwd=ROOT, env=environment).returncode for command in (ctest, pytest)]
+    vitest = ["npx", "--no-install", "vitest", "run", "--reporter=default", "--reporter=junit", f"--outputFile.junit={reports[2]}"]
+    runs = ((ctest, ROOT), (pytest, ROOT), (vitest, ROOT / "viewer"))
+    codes = [subprocess.run(command, cwd=folder, env=environment).returncode for command, folder in runs]
     passed, failed, skipped = (sum(numbers) for numbers in zip(*(count(report) for report in reports)))
     if any(codes) and failed == 0:
         failed = 1  # a runner failed without a failed test: no tests found, or it could not start

@@ -26,5 +26,5 @@ export default defineConfig({
   resolve: { alias: { 'tumble-engine': resolve(engine, 'tumble_engine.mjs') } },
   server: { fs: { allow: ['..'] } },
   build: { target: 'es2022', modulePreload: false, assetsInlineLimit: 100_000_000, chunkSizeWarningLimit: 2000 },
-  test: { include: ['tests/unit/**/*.test.ts'] },
+  test: { include: ['tests/**/*.test.ts'], fileParallelism: false, testTimeout: 60_000, hookTimeout: 120_000 },
 });

@@ -55,5 +55,11 @@ def test_hashes_of_this_build_are_the_golden_ones() -> None:
     assert printed_by(BUILD / "tests/determinism/tumble_hash") == GOLDEN
 
 
+def test_hashes_of_webassembly_are_the_golden_ones() -> None:
+    program = ROOT / "build-wasm/tests/determinism/tumble_hash.cjs"
+    printed = subprocess.run(["node", str(program)], check=True, capture_output=True, text=True).stdout
+    assert printed == GOLDEN
+
+
 def test_compilers_are_there() -> None:
     assert all(shutil.which(compiler, path=os.environ["PATH"]) for compiler, _ in BUILDS.values())

@@ -25,8 +25,8 @@ export class Timeline {
     root: HTMLElement,
     private readonly events: TimelineEvents,
   ) {
-    const back = button('One step back', '⏮', 'step-back');
-    const forward = button('One step forward', '⏭', 'step-forward');
+    const back = button('One step back', '|◀', 'step-back');
+    const forward = button('One step forward', '▶|', 'step-forward');
     this.slider.type = 'range';
     this.slider.min = '0';
     this.slider.step = 'any';
@@ -86,7 +86,7 @@ export class Timeline {
 
   private showPlaying(): void {
     const label = this.isPlaying ? 'Pause' : 'Play';
-    this.play.textContent = this.isPlaying ? '⏸' : '▶';
+    this.play.textContent = this.isPlaying ? '❚❚' : '▶';
     this.play.title = label;
     this.play.setAttribute('aria-label', label);
     this.events.onPlaying(this.isPlaying);

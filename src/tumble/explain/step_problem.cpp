@@ -26,10 +26,11 @@ BodyContact rows_of(const ContactRecord& record, std::span<const BodyState> befo
   return rows;
 }
 
-// [m/s] what the normal velocity after the step must not fall below.
+// [m/s] what the normal velocity after the step must not fall below. Where others bounce, a contact that stays open is
+// free: its gap closes in a later step.
 double target_of(const ContactRecord& record, double step_size) {
-  const bool is_closed = record.normal_impulse > 0.0;
-  return is_closed ? record.normal_velocity_after : -(record.contact.gap + record.bend) / step_size;
+  const double after = record.normal_velocity_after;
+  return record.normal_impulse > 0.0 ? after : std::min(after, -(record.contact.gap + record.bend) / step_size);
 }
 
 double weighted(const Vector3& a, const Vector3& inverse_mass, const Vector3& b) {

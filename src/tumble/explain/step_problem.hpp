@@ -28,8 +28,8 @@ inline constexpr std::size_t k_max_contacts_shown = 4;
 // That of all contacts at work in a step of a scene, in impulses, `as_lcp` of their contact system: `before` and
 // `after` are the bodies before and after the step [Scene::bodies]. Where something bounced it is the problem for the
 // velocity after the step, else the one problem there is; contacts with an impulse are held to the normal velocity that
-// they have after the step, the others to -(gap + bend) / step size. Empty if there are no contacts, or more than
-// k_max_contacts_shown.
+// they have after the step, the others to -(gap + bend) / step size or, where others bounce, to nothing. Empty if there
+// are no contacts, or more than k_max_contacts_shown.
 StepProblem problem_of_contacts(const Scene& scene, std::span<const BodyState> before, std::span<const BodyState> after,
                                 std::span<const ContactRecord> contacts, double step_size);
 
