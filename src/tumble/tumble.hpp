@@ -5,6 +5,8 @@
 #include "tumble/contact/restitution.hpp"
 #include "tumble/drop/drop.hpp"
 #include "tumble/drop/parameters.hpp"
+#include "tumble/explain/lemke_pages.hpp"
+#include "tumble/explain/step_problem.hpp"
 #include "tumble/geometry/contact_point.hpp"
 #include "tumble/geometry/shape_contacts.hpp"
 #include "tumble/lcp/contact_motions.hpp"
