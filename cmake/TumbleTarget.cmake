@@ -7,7 +7,10 @@
 # -fno-semantic-interposition: lets g++ inline within a file although the code is position independent, as clang does.
 function(tumble_target name)
   target_compile_features(${name} PUBLIC cxx_std_20)
-  set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF)
+  if(NOT EMSCRIPTEN)
+    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
   target_compile_options(${name} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
                                          $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize -fno-semantic-interposition>
                                          $<$<BOOL:${TUMBLE_WERROR}>:-Werror>)

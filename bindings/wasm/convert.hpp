@@ -83,15 +83,11 @@ inline Vector3 triple_at(const val& object, const std::string& name) {
 }
 
 // What `make` returns, or {error: text}: a C++ exception would arrive in JavaScript as a number.
+val guarded_call(val (*make)(void*), void* closure);
+
 template <class Make>
 val guarded(Make make) {
-  try {
-    return val(make());
-  } catch (const std::exception& error) {
-    val object = val::object();
-    set(object, "error", std::string(error.what()));
-    return object;
-  }
+  return guarded_call([](void* closure) { return (*static_cast<Make*>(closure))(); }, &make);
 }
 
 }  // namespace tumble::wasm

@@ -6,10 +6,22 @@
 #include "tumble/output/drop_trajectory.hpp"
 #include "tumble/output/trajectory_csv.hpp"
 #include "tumble/scene/scene_toml.hpp"
-#include "tumble/trajectory/scene_warnings.hpp"
 
 namespace tumble::wasm {
+
+val guarded_call(val (*make)(void*), void* closure) {
+  try {
+    return make(closure);
+  } catch (const std::exception& error) {
+    val object = val::object();
+    set(object, "error", std::string(error.what()));
+    return object;
+  }
+}
+
 namespace {
+
+val handle(std::shared_ptr<Run> run) { return val(std::move(run)); }
 
 struct DropStart {
   Vector3 q0, v0;
@@ -36,7 +48,7 @@ DropStart drop_start(const val& spec) {
 val simulate_drop(const val& spec) {
   return guarded([&] {
     const DropStart start = drop_start(spec);
-    return Run::of_record(drop::simulate_with_record(start.q0, start.v0, start.parameters));
+    return handle(Run::of_record(drop::simulate_with_record(start.q0, start.v0, start.parameters)));
   });
 }
 
@@ -45,7 +57,7 @@ val drop_as_scene(const val& spec) {
   return guarded([&] {
     const DropStart start = drop_start(spec);
     validate(start.parameters);
-    return to_toml(output::drop_scene(start.q0, start.v0, start.parameters));
+    return val(to_toml(output::drop_scene(start.q0, start.v0, start.parameters)));
   });
 }
 
@@ -56,12 +68,12 @@ val simulate_scene(const std::string& toml, const val& options) {
     settings.duration = number_at(options, "duration");
     settings.sample_every = static_cast<int>(number_at(options, "sample_every"));
     if (options["solver"].as<std::string>() == "fast") settings.step.solver = ContactSolver::fast;
-    return std::make_shared<SceneRun>(parse_scene(toml), settings);
+    return val(std::make_shared<SceneRun>(parse_scene(toml), settings));
   });
 }
 
 val read_record(const std::string& text, const std::string& name) {
-  return guarded([&] { return Run::of_record(output::parse_record_csv(text, name)); });
+  return guarded([&] { return handle(Run::of_record(output::parse_record_csv(text, name))); });
 }
 
 val read_trajectory(const std::string& toml, const std::string& samples, const std::string& samples_name,
@@ -69,7 +81,7 @@ val read_trajectory(const std::string& toml, const std::string& samples, const s
   return guarded([&] {
     Trajectory trajectory =
         output::parse_trajectory_csv(parse_scene(toml), samples, samples_name, contacts, contacts_name);
-    return Run::of_trajectory(std::move(trajectory));
+    return handle(Run::of_trajectory(std::move(trajectory)));
   });
 }
 
@@ -81,17 +93,7 @@ val edit_scene(const std::string& toml, const val& edits) {
   return guarded([&] {
     Scene scene = parse_scene(toml);
     apply_edits(scene, edits);
-    return to_toml(scene);
-  });
-}
-
-val warnings_of_scene(const std::string& toml) {
-  return guarded([&] {
-    const Scene scene = parse_scene(toml);
-    const std::vector<std::string> labels = body_labels(scene);
-    std::vector<std::string> texts;
-    for (const SceneWarning& warning : scene_warnings(scene)) texts.push_back(to_text(warning, scene, labels));
-    return to_array(texts);
+    return val(to_toml(scene));
   });
 }
 
@@ -102,10 +104,10 @@ val impulse_planes(const Run& run, int k) {
   return guarded([&] { return run.impulse_planes(k); });
 }
 val csv(const Run& run, const std::string& table) {
-  return guarded([&] { return run.csv(table); });
+  return guarded([&] { return val(run.csv(table)); });
 }
 val finish(SceneRun& run) {
-  return guarded([&] { return run.finish(); });
+  return guarded([&] { return handle(run.finish()); });
 }
 
 }  // namespace
@@ -132,7 +134,6 @@ EMSCRIPTEN_BINDINGS(tumble) {
   function("read_trajectory", &read_trajectory);
   function("describe_scene", &describe_scene);
   function("edit_scene", &edit_scene);
-  function("warnings_of_scene", &warnings_of_scene);
 }
 
 }  // namespace tumble::wasm

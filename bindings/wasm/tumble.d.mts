@@ -207,7 +207,6 @@ export interface Module {
   ): Run | Failure;
   describe_scene(toml: string, name: string): SceneInfo | Failure;
   edit_scene(toml: string, edits: SceneEdits): string | Failure;
-  warnings_of_scene(toml: string): string[] | Failure;
 }
 
 export default function create(options: { wasmBinary: Uint8Array }): Promise<Module>;

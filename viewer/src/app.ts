@@ -38,11 +38,12 @@ export class App {
   private active: SlotName = 'a';
   private body = 1;
   private home: Spec = documentDrop; // where Reset leads
+  private readonly opening = new Set<SlotName>(); // slots that wait for the first run of what was opened
   private isCancelled = false;
   private readonly reducesMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
   constructor(private readonly engine: Module) {
-    this.session = new Session(engine, () => this.showRuns(), (share) => this.showProgress(share));
+    this.session = new Session(engine, (name) => this.onRun(name), (share) => this.showProgress(share));
     this.stage = new Stage(find('stage'), {
       onStart: (start) => this.change((spec) => this.session.withStart(spec, this.body, start)),
       onSelect: (body) => this.select(body),
@@ -75,33 +76,43 @@ export class App {
 
   open(shared: Shared): void {
     this.home = shared.a;
-    this.stage.forgetView();
+    this.leave();
+    if (shared.b) this.opening.add('b');
     this.session.set('a', shared.a);
+    const refused = this.runs.a ? null : this.session.slots.a?.error;
+    if (refused) {  // a link may ask for anything
+      this.session.set('a', documentDrop);
+      this.tell(refused.message, true);
+    }
     if (shared.b) this.session.set('b', shared.b);
-    else this.session.drop('b');
-    this.body = this.session.firstBody();
     this.showRuns();
-    this.setTime(shared.time);
+    this.setTime(this.opening.has('a') ? shared.time : Math.min(shared.time, this.duration));
   }
 
   openTexts(files: TextFile[]): void {
     const opened = openFiles(this.engine, files, this.runs.a);
-    this.stage.forgetView();
-    this.session.drop('b');
+    this.leave();
+    find<HTMLSelectElement>('scene').value = '';
     if (opened instanceof Run) {
       const spec = specOf(opened);
       this.home = spec;
       this.session.setRun('a', new Run(this.engine, spec, opened.handle));
-      find<HTMLSelectElement>('scene').value = '';
       this.tell(`A recorded run of ${number(opened.duration)} s. A change of a parameter simulates anew.`);
     } else {
       this.home = { kind: 'scene', toml: opened.toml, solver: 'exact' };
       this.session.set('a', this.home);
-      find<HTMLSelectElement>('scene').value = '';
     }
-    this.body = this.session.firstBody();
     this.showRuns();
     this.setTime(0);
+  }
+
+  // What is opened next takes the place of all that is shown.
+  private leave(): void {
+    this.active = 'a';
+    this.session.drop('b');
+    this.opening.clear();
+    this.opening.add('a');
+    setText(find('toml-error'), '');
   }
 
   tell(text: string, isError = false): void {
@@ -124,18 +135,32 @@ export class App {
     return layers;
   }
 
+  private get duration(): number {
+    return Math.max(this.runs.a?.duration ?? 0, this.runs.b?.duration ?? 0);
+  }
+
+  private onRun(name: SlotName): void {
+    if (!this.session.slots[name]?.error && this.opening.delete(name)) {
+      this.stage.forgetView();
+      if (name === 'a') this.body = this.session.firstBody();
+    }
+    this.showRuns();
+  }
+
   private showRuns(): void {
     const { a, b } = this.runs;
-    if (!a) return this.showErrors();
+    if (!a) {
+      const error = this.session.slots.a?.error;
+      return error ? this.tell(error.message, true) : undefined;
+    }
     if (!a.scene.bodies[this.body] || a.scene.bodies[this.body]?.kind === 'fixed') this.body = this.session.firstBody();
-    this.timeline.setDuration(Math.max(a.duration, b?.duration ?? 0));
+    this.timeline.setDuration(this.duration);
     this.showControls();
     const theme = readTheme();
     const shown: ShownRun[] = [{ run: a, label: 'A', colour: theme['body-deep'], isOther: false }];
     if (b) shown.push({ run: b, label: 'B', colour: theme['other-deep'], isOther: true });
     this.plots.show(shown, this.body);
-    if (this.timeline.time > Math.max(a.duration, b?.duration ?? 0)) this.setTime(Math.max(a.duration, b?.duration ?? 0));
-    else this.showMoment();
+    this.setTime(Math.min(this.timeline.time, this.duration));
     this.showFacts(a);
   }
 
@@ -339,7 +364,6 @@ export class App {
     scene.addEventListener('change', () => {
       this.tell('');
       const example = examples.find(({ name }) => name === scene.value);
-      this.active = 'a';
       this.open({ a: example ? { kind: 'scene', toml: example.toml, solver: 'exact' } : documentDrop, b: null, time: 0 });
     });
     find('model').addEventListener('change', (event) => {

@@ -24,3 +24,20 @@ declare module 'gifenc' {
   export function quantize(rgba: Uint8Array | Uint8ClampedArray, maxColors: number): number[][];
   export function applyPalette(rgba: Uint8Array | Uint8ClampedArray, palette: number[][]): Uint8Array;
 }
+
+declare module 'lzma1-decoder' {
+  import type { InputBuffer, OutputBuffer } from 'lzma1-streams';
+  export class Decoder {
+    decompress(input: InputBuffer, output: OutputBuffer): void;
+  }
+}
+
+declare module 'lzma1-streams' {
+  export class InputBuffer {
+    constructor(bytes: Uint8Array);
+  }
+  export class OutputBuffer {
+    constructor(capacity: number);
+    toArray(): Uint8Array;
+  }
+}

@@ -17,6 +17,9 @@ namespace tumble {
 template <class Real>
 class LuBasis {
  public:
+  // Large sparse cores are factored as such.
+  void allow_sparse(std::unique_ptr<SparseLu> (*make)()) { lu_.allow_sparse(make); }
+
   // A complementary basis; the cover is such that every w_i and z_i in it grows by 1 with z0, or, for a cover number
   // above 0, by a pseudo-random amount in [1, 2).
   void start(const ScaledProblem& problem, double ridge, const std::vector<std::uint8_t>& basis, int cover_number = 0) {

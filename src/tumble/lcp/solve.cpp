@@ -6,6 +6,7 @@
 
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/rung.hpp"
+#include "tumble/lcp/sparse_lu.hpp"
 
 namespace tumble {
 namespace {
@@ -60,12 +61,14 @@ LcpResult solve_lcp(const LcpProblem& problem, const LcpSettings& settings) {
   validate(problem);
   validate(settings);
   LcpWorkspace workspace;
+  workspace.buffers().lu_basis.allow_sparse(make_sparse_lu);
   std::visit([&](const auto& chosen) { run(problem, chosen, workspace); }, settings);
   return std::move(workspace.result);
 }
 
 const LcpResult& solve_lcp(const LcpProblem& problem, const LcpSettings& settings, LcpWorkspace& workspace) {
   validate(settings);
+  workspace.buffers().lu_basis.allow_sparse(make_sparse_lu);
   try {
     validate(problem);
     std::visit([&](const auto& chosen) { run(problem, chosen, workspace); }, settings);

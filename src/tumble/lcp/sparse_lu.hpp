@@ -1,4 +1,4 @@
-// LU factors of a sparse matrix, by Eigen, which is compiled in sparse_lu.cpp alone. Not a public header.
+// LU factors of a sparse matrix. Not a public header.
 #pragma once
 
 #include <cstddef>
@@ -6,26 +6,24 @@
 
 namespace tumble {
 
+// A class of its own behind virtual functions: programs whose problems are never large do without Eigen's factors,
+// which `make_sparse_lu` alone brings in.
 class SparseLu {
  public:
-  SparseLu();
-  ~SparseLu();
-  SparseLu(SparseLu&&) noexcept;
-  SparseLu& operator=(SparseLu&&) noexcept;
+  virtual ~SparseLu() = default;
 
   // Begins a matrix without entries.
-  void start();
-  void add(std::size_t row, std::size_t column, double value);
+  virtual void start() = 0;
+  virtual void add(std::size_t row, std::size_t column, double value) = 0;
 
   // Of the k x k matrix of the entries added. False if it is singular.
-  bool factor(std::size_t k);
+  virtual bool factor(std::size_t k) = 0;
 
   // x with A x = b; b and x have k entries and may not overlap.
-  void solve(const double* b, double* x) const;
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  virtual void solve(const double* b, double* x) const = 0;
 };
+
+// By Eigen.
+std::unique_ptr<SparseLu> make_sparse_lu();
 
 }  // namespace tumble
