@@ -188,7 +188,7 @@ export class App {
     if (spec.kind === 'drop') {
       this.parameters.show(dropParameters, dropValues(spec));
     } else {
-      const { parameters, values } = sceneParameters(run.scene, this.body);
+      const { parameters, values } = sceneParameters(this.session.sceneOf(slot) ?? run.scene, this.body);
       this.parameters.show(parameters, values);
     }
     if (start) this.start.show(startParameters, startValues(start.pose, start.velocity));
@@ -237,6 +237,8 @@ export class App {
     if (!slot) return;
     try {
       this.session.set(this.active, to(slot.spec));
+      this.showControls();
+      this.showMoment();
     } catch (error) {
       this.session.fail(this.active, error);
     }
