@@ -1,5 +1,5 @@
 // What the page is about: one run or two, each from its spec, and how a change of a spec becomes a new run.
-import type { Module, SceneEdits, SceneRun, Triple } from 'tumble-engine';
+import type { Module, SceneEdits, SceneInfo, SceneRun, Triple } from 'tumble-engine';
 import { checked } from './engine';
 import { firstDynamic, Run, simulateDrop, startScene, type DropSpec, type Spec } from './run';
 import type { Start } from './stage';
@@ -29,6 +29,7 @@ const sliceTime = 12; // [ms]
 export class Session {
   readonly slots: Record<SlotName, Slot | null> = { a: null, b: null };
   private readonly jobs: Record<SlotName, Job | null> = { a: null, b: null };
+  private readonly infos = new WeakMap<Spec, SceneInfo>();
   private isWorking = false;
 
   constructor(
@@ -103,11 +104,18 @@ export class Session {
     }
     return this.edited(spec, { [key]: value } as SceneEdits);
   }
+  // The scene that is asked for, which may be ahead of the run that is shown.
+  sceneOf(slot: Slot): SceneInfo | null {
+    if (slot.spec.kind !== 'scene') return slot.run?.scene ?? null;
+    let info = this.infos.get(slot.spec);
+    if (!info) this.infos.set(slot.spec, (info = checked(this.engine.describe_scene(slot.spec.toml, 'scene'))));
+    return info;
+  }
   // Where the handles of a body are.
   startOf(slot: Slot | null, body: number): Start | null {
     if (!slot?.run || slot.spec.kind === 'recorded') return null;
     if (slot.spec.kind === 'drop') return { pose: slot.spec.q0, velocity: slot.spec.v0 };
-    const info = slot.run.scene.bodies[body];
+    const info = this.sceneOf(slot)?.bodies[body];
     return info?.kind === 'dynamic' ? { pose: info.pose, velocity: info.velocity } : null;
   }
   firstBody(): number {
