@@ -40,6 +40,7 @@ export class App {
   private home: Spec = documentDrop; // where Reset leads
   private readonly opening = new Set<SlotName>(); // slots that wait for the first run of what was opened
   private isCancelled = false;
+  private lastDuration = Infinity;
   private readonly reducesMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
   constructor(private readonly engine: Module) {
@@ -78,7 +79,7 @@ export class App {
     this.home = shared.a;
     this.leave();
     if (shared.b) this.opening.add('b');
-    this.session.set('a', shared.a);
+    this.session.set('a', shared.a, true);
     const refused = this.runs.a ? null : this.session.slots.a?.error;
     if (refused) {  // a link may ask for anything
       this.session.set('a', documentDrop);
@@ -418,7 +419,7 @@ export class App {
       const failure = this.engine.describe_scene(text, 'scene.toml');
       if ('error' in failure) throw new Error(failure.error);
       this.stage.forgetView();
-      this.change(() => ({ kind: 'scene', toml: text, solver: 'exact' }));
+      this.session.set(this.active, { kind: 'scene', toml: text, solver: 'exact' }, true);
     } catch (caught) {
       setText(error, (caught as Error).message);
     }

@@ -140,6 +140,17 @@ export function startScene(engine: Module, toml: string, solver: 'exact' | 'fast
   return checked(engine.simulate_scene(toml, { step_size: 0, duration: 0, sample_every, solver }));
 }
 
+// The first step alone: what there is to see until the rest is computed.
+export function firstStep(engine: Module, spec: SceneSpec): Run {
+  const { step_size } = checked(engine.describe_scene(spec.toml, 'scene'));
+  const options = { step_size, duration: step_size, sample_every: 1, solver: spec.solver };
+  const simulation = checked(engine.simulate_scene(spec.toml, options));
+  simulation.advance(1);
+  const run = new Run(engine, spec, checked(simulation.finish()));
+  simulation.delete();
+  return run;
+}
+
 // The first dynamic body: the one whose motion is shown at first.
 export function firstDynamic(scene: SceneInfo): number {
   return Math.max(

@@ -1,7 +1,7 @@
 // What the page is about: one run or two, each from its spec, and how a change of a spec becomes a new run.
 import type { Module, SceneEdits, SceneInfo, SceneRun, Triple } from 'tumble-engine';
 import { checked } from './engine';
-import { firstDynamic, Run, simulateDrop, startScene, type DropSpec, type Spec } from './run';
+import { firstDynamic, firstStep, Run, simulateDrop, startScene, type DropSpec, type Spec } from './run';
 import type { Start } from './stage';
 
 export type SlotName = 'a' | 'b';
@@ -38,8 +38,9 @@ export class Session {
     private readonly onProgress: (share: number) => void, // 0 to 1; 1: nothing goes on
   ) {}
 
-  // Simulates anew. What takes longer than a slice goes on behind; a newer spec ends it.
-  set(name: SlotName, spec: Spec): void {
+  // Simulates anew. What takes longer than a slice goes on behind; a newer spec ends it. Until then the run before is
+  // shown, or, of another scene, the first step.
+  set(name: SlotName, spec: Spec, isOther = false): void {
     this.cancel(name);
     const slot = (this.slots[name] ??= { spec, run: null, error: null });
     slot.spec = spec;
@@ -51,6 +52,7 @@ export class Session {
       const simulation = startScene(this.engine, toml, spec.kind === 'scene' ? spec.solver : 'exact');
       this.jobs[name] = { spec, simulation, share: 0 };
       this.work();
+      if (isOther && this.jobs[name] && spec.kind === 'scene') this.take(name, firstStep(this.engine, spec));
     } catch (error) {
       this.fail(name, error);
     }
