@@ -155,6 +155,8 @@ export class App {
       return error ? this.tell(error.message, true) : undefined;
     }
     if (!a.scene.bodies[this.body] || a.scene.bodies[this.body]?.kind === 'fixed') this.body = this.session.firstBody();
+    if (this.duration > 20 * this.lastDuration) this.stage.forgetView(); // more than the first step is there
+    this.lastDuration = this.duration;
     this.timeline.setDuration(this.duration);
     this.showControls();
     const theme = readTheme();
