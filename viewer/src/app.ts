@@ -27,6 +27,8 @@ function specOf(run: Run): Spec {
   return { kind: 'drop', model: 'document', q0: run.poseAt(0, 1), v0: run.velocityAt(0, 1), l, m, mu, eps, dt, delta, g, columns };
 }
 
+const inspectionInterval = 150; // [ms] while the film runs
+
 export class App {
   private readonly session: Session;
   private readonly stage: Stage;
@@ -35,12 +37,14 @@ export class App {
   private readonly inspector = new Inspector(find('inspector'));
   private readonly parameters: Parameters;
   private readonly start: Parameters;
+  private changed: Parameters; // where a number was changed last
   private active: SlotName = 'a';
   private body = 1;
   private home: Spec = documentDrop; // where Reset leads
   private readonly opening = new Set<SlotName>(); // slots that wait for the first run of what was opened
   private isCancelled = false;
   private lastDuration = Infinity;
+  private lastInspection = 0;
   private readonly reducesMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
   constructor(private readonly engine: Module) {
@@ -58,8 +62,15 @@ export class App {
       if (!this.timeline.isPlaying) this.setTime(time);
     });
     const onValue = (key: string, value: number): void => this.change((spec) => this.session.withParameter(spec, this.body, key, value));
-    this.parameters = new Parameters(find('parameters'), onValue);
-    this.start = new Parameters(find('start'), onValue);
+    this.parameters = new Parameters(find('parameters'), (key, value) => {
+      this.changed = this.parameters;
+      onValue(key, value);
+    });
+    this.start = new Parameters(find('start'), (key, value) => {
+      this.changed = this.start;
+      onValue(key, value);
+    });
+    this.changed = this.parameters;
     this.listen();
   }
 
@@ -80,9 +91,9 @@ export class App {
     this.leave();
     if (shared.b) this.opening.add('b');
     this.session.set('a', shared.a, true);
-    const refused = this.runs.a ? null : this.session.slots.a?.error;
+    const refused = this.session.slots.a?.error;
     if (refused) {  // a link may ask for anything
-      this.session.set('a', documentDrop);
+      if (!this.runs.a) this.session.set('a', documentDrop);
       this.tell(refused.message, true);
     }
     if (shared.b) this.session.set('b', shared.b);
@@ -179,6 +190,10 @@ export class App {
     this.timeline.setTime(time);
     this.stage.show(layers, find<HTMLInputElement>('side').checked, this.session.startOf(this.slot, this.body), options);
     this.plots.setTime(time);
+    // Nobody reads sixty texts a second.
+    const now = performance.now();
+    if (isPlaying && now - this.lastInspection < inspectionInterval) return;
+    this.lastInspection = now;
     const run = this.slot?.run ?? null;
     this.inspector.show(run, run?.sampleAt(time) ?? 0);
   }
@@ -211,15 +226,14 @@ export class App {
 
   private showErrors(): void {
     const error = this.slot?.error ?? null;
-    const isStart = error !== null && /^[qv]0|^pose|^velocity/.test(error.field);
-    this.parameters.fail(error?.field ?? '', error && !isStart ? error.message : '');
-    this.start.fail(error?.field ?? '', error && isStart ? error.message : '');
-    if (error && isStart) find<HTMLDetailsElement>('start-section').open = true;
+    const place = !error || this.parameters.has(error.field) ? this.parameters : this.changed;
+    for (const part of [this.parameters, this.start]) part.fail(error?.field ?? '', part === place ? (error?.message ?? '') : '');
+    if (error && place === this.start) find<HTMLDetailsElement>('start-section').open = true;
   }
 
   private showFacts(run: Run): void {
     const { status, residual, num_steps, is_complete, num_inexact_steps, created_energy } = run.trajectory;
-    const worst = run.record ? Math.max(...run.record.residual) : residual;
+    const worst = run.record ? run.record.residual.reduce((largest, x) => Math.max(largest, x), 0) : residual;
     const parts = [`${num_steps} steps`, `status ${status}`, `largest residual ${number(worst, 2)}`];
     if (!is_complete) parts.push('ended early');
     if (num_inexact_steps > 0) parts.push(`${num_inexact_steps} inexact steps`);

@@ -265,11 +265,23 @@ function drawPath(pen: Pen, view: View, run: Run, body: number): void {
 
 // ---- Contacts: impulse, friction cone, slip ----
 
+const mostArrows = 60; // of steps that fade; more are a fog, and slow
+
+function count(run: Run, sample: number): number {
+  const { first, last } = run.contactsOf(sample);
+  return last - first;
+}
+
 function drawContacts(pen: Pen, view: View, layer: Layer, options: DrawOptions, theme: Theme): void {
   const { run, sample } = layer;
   const now = run.trajectory.time[sample] as number;
   let first = sample;
-  while (first > 0 && now - (run.trajectory.time[first - 1] as number) < options.fade) --first;
+  let numDrawn = count(run, sample);
+  while (first > 0 && now - (run.trajectory.time[first - 1] as number) < options.fade) {
+    numDrawn += count(run, first - 1);
+    if (numDrawn > mostArrows) break;
+    --first;
+  }
   for (let k = first; k <= sample; ++k) {
     const age = now - (run.trajectory.time[k] as number);
     const { first: from, last } = run.contactsOf(k);

@@ -122,6 +122,7 @@ class Row {
 export class Parameters {
   private rows: Row[] = [];
   private keys = '';
+  private changed = '';
   private readonly general = element('p', 'field-error');
 
   constructor(
@@ -136,7 +137,11 @@ export class Parameters {
     if (keys !== this.keys) {
       this.keys = keys;
       const bad = (key: string, message: string): void => this.fail(key, message);
-      this.rows = parameters.map((p) => new Row(p, (value) => this.onValue(p.key, value), bad));
+      const change = (key: string, value: number): void => {
+        this.changed = key;
+        this.onValue(key, value);
+      };
+      this.rows = parameters.map((p) => new Row(p, (value) => change(p.key, value), bad));
       this.root.replaceChildren(...this.rows.map((row) => row.node), this.general);
     }
     for (const row of this.rows) {
@@ -144,14 +149,14 @@ export class Parameters {
       if (value !== undefined) row.show(value);
     }
   }
-  // A line at the field, or below all if there is no such field. '' takes all lines away.
+  // A line at the field, else at the one that was changed last, else below all. '' takes all lines away.
   fail(field: string, message: string): void {
-    let found = false;
-    for (const row of this.rows) {
-      const is = field !== '' && (row.parameter.key === field || row.parameter.key.endsWith(`.${field}`) || row.parameter.key.startsWith(`${field}.`));
-      row.fail(is && !found ? message : '');
-      found ||= is;
-    }
-    setText(this.general, found ? '' : message);
+    const rowOf = (key: string): Row | undefined => this.rows.find((row) => row.parameter.key === key);
+    const failed = rowOf(field) ?? rowOf(this.changed);
+    for (const row of this.rows) row.fail(row === failed ? message : '');
+    setText(this.general, failed ? '' : message);
+  }
+  has(key: string): boolean {
+    return this.rows.some((row) => row.parameter.key === key);
   }
 }

@@ -61,9 +61,14 @@ export class Run {
     readonly spec: Spec,
     readonly handle: EngineRun,
   ) {
-    this.trajectory = handle.trajectory();
-    this.record = handle.record();
-    this.scene = checked(engine.describe_scene(this.trajectory.scene, 'scene'));
+    try {
+      this.trajectory = handle.trajectory();
+      this.record = handle.record();
+      this.scene = checked(engine.describe_scene(this.trajectory.scene, 'scene'));
+    } catch (error) {
+      handle.delete();
+      throw error;
+    }
     this.numBodies = this.scene.bodies.length;
   }
 
@@ -127,12 +132,13 @@ export class Run {
   }
 }
 
+// At most so many samples are simulated.
+const maxSamples = 20_000;
+
 export function simulateDrop(engine: Module, spec: DropSpec): Run {
+  if (spec.columns > maxSamples) throw new Error(`columns: must be at most ${maxSamples} in this page, got ${spec.columns}`);
   return new Run(engine, spec, checked(engine.simulate_drop(spec)));
 }
-
-// At most so many samples are kept of a scene.
-const maxSamples = 20_000;
 
 export function startScene(engine: Module, toml: string, solver: 'exact' | 'fast'): SceneRun {
   const { duration, step_size } = checked(engine.describe_scene(toml, 'scene'));

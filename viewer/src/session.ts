@@ -23,6 +23,13 @@ interface Job {
   share: number; // done
 }
 
+// What a line of the engine is about, as the key of a parameter: "materials[0].friction: ...", "bodies[1] 'block': mass: ...", "m, l: ...".
+function fieldOf(message: string): string {
+  const material = /^materials\[(\d+)\]\.(\w+):/.exec(message);
+  if (material) return `material.${material[1]}.${material[2]}`;
+  return /^(?:bodies\[\d+\](?: '.*?')?(?:\.|: ))?(\w+)(?:, \w+)*:/.exec(message)?.[1] ?? '';
+}
+
 // A slice of a long simulation: short enough for the page to stay awake.
 const sliceTime = 12; // [ms]
 
@@ -127,8 +134,9 @@ export class Session {
   fail(name: SlotName, error: unknown): void {
     const slot = this.slots[name];
     if (!slot) return;
-    const message = error instanceof Error ? error.message : String(error);
-    slot.error = { field: /^([\w.[\]]+):/.exec(message)?.[1] ?? '', message };
+    // The engine's own exceptions come without words.
+    const message = error instanceof Error ? error.message : 'This cannot be shown: a number is beyond the range of scenes, or the memory was not enough.';
+    slot.error = { field: fieldOf(message), message };
     this.onRun(name);
   }
 
@@ -166,14 +174,20 @@ export class Session {
     for (const name of ['a', 'b'] as const) {
       let job = this.jobs[name];
       while (job && performance.now() < end) {
-        job.share = job.simulation.advance(1);
-        if (job.share === 1) {
-          this.finish(name, job);
-          job = this.jobs[name];
-        }
+        this.advance(name, job);
+        job = this.jobs[name];
       }
     }
     this.onProgress(Math.min(this.jobs.a?.share ?? 1, this.jobs.b?.share ?? 1));
+  }
+  private advance(name: SlotName, job: Job): void {
+    try {
+      job.share = job.simulation.advance(1);
+      if (job.share === 1) this.finish(name, job);
+    } catch (error) {
+      this.cancel(name);
+      this.fail(name, error);
+    }
   }
   private finish(name: SlotName, job: Job): void {
     this.jobs[name] = null;

@@ -27,6 +27,7 @@ const names: Record<HandleName, string> = {
 };
 
 const velocityPixels = 40; // [px] of an arrow per m/s
+const beyondTip = 30; // [px] from the tip of that arrow to its handle: clear of the body's handle
 const spinTurn = 0.12; // [rad] of the spin's arc per rad/s
 const degree = Math.PI / 180;
 
@@ -153,15 +154,17 @@ export class Stage {
     const [px, py] = [this.view.toX(pose[0]), this.view.toY(pose[1])];
     const reach = this.reach();
     const spin = pose[2] + Math.PI / 2 + spinTurn * velocity[2];
+    const speed = Math.hypot(velocity[0], velocity[1]);
+    const [right, up] = speed > 0 ? [velocity[0] / speed, velocity[1] / speed] : [0, -1];
     return {
       body: [px, py],
       turn: [px + reach * Math.cos(pose[2]), py - reach * Math.sin(pose[2])],
-      velocity: [px + velocityPixels * velocity[0], py - velocityPixels * velocity[1] + (velocity[1] <= 0 ? 14 : -14)],
+      velocity: [px + velocityPixels * velocity[0] + beyondTip * right, py - velocityPixels * velocity[1] - beyondTip * up],
       spin: [px + reach * Math.cos(spin), py - reach * Math.sin(spin)],
     };
   }
   private reach(): number {
-    return this.radius * this.view.scale + 22;
+    return Math.max(this.radius * this.view.scale, 18) + 22;
   }
 
   private drawHandles(pen: CanvasRenderingContext2D): void {
@@ -185,7 +188,14 @@ export class Stage {
     pen.beginPath();
     pen.arc(px, py, this.reach(), -from, -to, to > from);
     pen.stroke();
-    arrow(pen, px, py, ...points.velocity, 2);
+    const [vx, vy] = this.start.velocity;
+    const tip: [number, number] = [px + velocityPixels * vx, py - velocityPixels * vy];
+    if (vx !== 0 || vy !== 0) arrow(pen, px, py, ...tip, 2);
+    pen.setLineDash([2, 3]);
+    pen.beginPath();
+    pen.moveTo(...tip);
+    pen.lineTo(...points.velocity);
+    pen.stroke();
     pen.restore();
   }
 
@@ -258,8 +268,9 @@ export class Stage {
     const round = (value: number, digits = 4): number => Number(value.toFixed(digits));
     if (name === 'body') this.change([round(this.view.worldX(x)), round(this.view.worldY(y)), pose[2]], velocity);
     if (name === 'velocity') {
-      const shift = velocity[1] <= 0 ? 14 : -14;
-      this.change(pose, [round((x - px) / velocityPixels, 2), round((py - y + shift) / velocityPixels, 2), velocity[2]]);
+      const distance = Math.hypot(x - px, py - y);
+      const share = distance > beyondTip ? (distance - beyondTip) / distance / velocityPixels : 0;
+      this.change(pose, [round(share * (x - px), 2), round(share * (py - y), 2), velocity[2]]);
     }
     if (name === 'turn' || name === 'spin') {
       const angle = Math.atan2(py - y, x - px);
