@@ -33,5 +33,5 @@ export default defineConfig({
   },
   server: { fs: { allow: ['..'] } },
   build: { target: 'es2022', modulePreload: false, assetsInlineLimit: 100_000_000, chunkSizeWarningLimit: 2000 },
-  test: { include: ['tests/**/*.test.ts'], fileParallelism: false, testTimeout: 60_000, hookTimeout: 120_000 },
+  test: { include: ['tests/**/*.test.ts'], fileParallelism: false, retry: 1, testTimeout: 60_000, hookTimeout: 120_000 },
 });

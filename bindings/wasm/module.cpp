@@ -119,6 +119,7 @@ EMSCRIPTEN_BINDINGS(tumble) {
       .smart_ptr<std::shared_ptr<Run>>("Run")
       .function("trajectory", &Run::trajectory)
       .function("record", &Run::record)
+      .function("scene", &Run::scene)
       .function("body_series", &Run::body_series)
       .function("problem", &problem)
       .function("impulse_planes", &impulse_planes)

@@ -5,6 +5,8 @@
 #include <limits>
 #include <span>
 
+#include "scene_edit.hpp"
+
 #include "tumble/explain/lemke_pages.hpp"
 #include "tumble/explain/step_problem.hpp"
 #include "tumble/lcp/lemke.hpp"
@@ -131,6 +133,8 @@ val Run::trajectory() const {
   set(object, "total_impact_loss", to_typed_array(impact_loss));
   return object;
 }
+
+val Run::scene() const { return describe(trajectory_.scene); }
 
 val Run::body_series(int body) const {
   const Index T = trajectory_.time.size();

@@ -22,6 +22,7 @@ class Run {
   // drop's record, or null.
   val trajectory() const;
   val record() const;
+  val scene() const;  // as `describe` has it
 
   // What the contacts of a body do, over the samples: sums of impulses [N s] and the least gap [m] of the step that
   // leaves each; NaN where there is none.

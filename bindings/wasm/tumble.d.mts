@@ -54,6 +54,8 @@ export interface TrajectoryArrays {
   contact_step: Float64Array; // N
   contact_body_a: Int32Array;
   contact_body_b: Int32Array;
+  contact_part_a: Int32Array;
+  contact_part_b: Int32Array;
   contact_feature: Float64Array;
   contact_mode: Int32Array;
   contact_point_a: Float64Array; // N x 2
@@ -179,6 +181,7 @@ export interface SceneEdits {
 export interface Run {
   trajectory(): TrajectoryArrays;
   record(): RecordArrays | null;
+  scene(): SceneInfo;
   body_series(body: number): BodySeries;
   problem(sample: number): StepProblem | null | Failure;
   impulse_planes(sample: number): ImpulsePlane[] | Failure;

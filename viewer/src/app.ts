@@ -108,7 +108,7 @@ export class App {
     if (opened instanceof Run) {
       const spec = specOf(opened);
       this.home = spec;
-      this.session.setRun('a', new Run(this.engine, spec, opened.handle));
+      this.session.setRun('a', new Run(spec, opened.handle));
       this.tell(`A recorded run of ${number(opened.duration)} s. A change of a parameter simulates anew.`);
     } else {
       this.home = { kind: 'scene', toml: opened.toml, solver: 'exact' };

@@ -84,7 +84,8 @@ function drawGrid(pen: Pen, view: View, theme: Theme): void {
   pen.textAlign = 'center';
   for (let i = Math.ceil(left / size); i * size <= right; ++i) {
     line(pen, view.toX(i * size), 0, view.toX(i * size), view.height);
-    pen.fillText(number(i * size, 6), view.toX(i * size), view.height - 4);
+    const margin = Math.min(view.toX(i * size) - view.left, view.left + view.width - view.toX(i * size));
+    if (margin > 24) pen.fillText(number(i * size, 6), view.toX(i * size), view.height - 4);
   }
   pen.textBaseline = 'middle';
   pen.textAlign = 'left';
@@ -302,9 +303,10 @@ function drawContact(pen: Pen, view: View, layer: Layer, row: number, inFull: bo
   const at = (array: Float64Array): [number, number] => [array[2 * row] as number, array[2 * row + 1] as number];
   const [nx, ny] = at(t.contact_normal);
   const [tx, ty] = [ny, -nx]; // the normal turned right
-  const [ax, ay] = at(t.contact_point_a);
-  const [bx, by] = at(t.contact_point_b);
-  const [px, py] = [view.toX(0.5 * (ax + bx)), view.toY(0.5 * (ay + by))];
+  // On the body that the arrow pushes: where they overlap, as in the document's model, the other surface is elsewhere.
+  const pushesB = run.scene.bodies[t.contact_body_b[row] as number]?.kind === 'dynamic';
+  const [x, y] = at(pushesB ? t.contact_point_b : t.contact_point_a);
+  const [px, py] = [view.toX(x), view.toY(y)];
   const colour = modeColours(theme)[t.contact_mode[row] as number] as string;
   const longest = Math.min(110, 0.3 * view.height);
   const scale = longest / Math.max(shapesOf(run).largestImpulse, 1e-300);

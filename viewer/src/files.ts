@@ -87,7 +87,7 @@ function openTables(engine: Module, found: Map<Kind, TextFile>, current: Run | n
   const toml = scene?.text ?? sceneFor(samples, current);
   const files = [scene ?? { name: 'scene.toml', text: toml }, samples, ...(contacts ? [contacts] : [])];
   const run = engine.read_trajectory(toml, samples.text, samples.name, contacts?.text ?? '', contacts?.name ?? '');
-  return new Run(engine, { kind: 'recorded', files }, checked(run));
+  return new Run({ kind: 'recorded', files }, checked(run));
 }
 
 // What files are: a run that was recorded, or a scene to simulate. Throws an Error "file: what is wrong".
@@ -98,7 +98,7 @@ export function openFiles(engine: Module, files: TextFile[], current: Run | null
   if (record) {
     const other = files.find((file) => file !== record);
     if (other) throw new Error(`${other.name}: it does not belong to ${record.name}; open a ${titles.drop} alone`);
-    return new Run(engine, { kind: 'recorded', files }, checked(engine.read_record(record.text, record.name)));
+    return new Run({ kind: 'recorded', files }, checked(engine.read_record(record.text, record.name)));
   }
   const scene = found.get('scene');
   if (scene && found.size === 1) return { toml: scene.text };

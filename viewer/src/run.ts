@@ -57,14 +57,13 @@ export class Run {
   private readonly series = new Map<number, BodySeries>();
 
   constructor(
-    engine: Module,
     readonly spec: Spec,
     readonly handle: EngineRun,
   ) {
     try {
       this.trajectory = handle.trajectory();
       this.record = handle.record();
-      this.scene = checked(engine.describe_scene(this.trajectory.scene, 'scene'));
+      this.scene = handle.scene();
     } catch (error) {
       handle.delete();
       throw error;
@@ -137,7 +136,7 @@ const maxSamples = 20_000;
 
 export function simulateDrop(engine: Module, spec: DropSpec): Run {
   if (spec.columns > maxSamples) throw new Error(`columns: must be at most ${maxSamples} in this page, got ${spec.columns}`);
-  return new Run(engine, spec, checked(engine.simulate_drop(spec)));
+  return new Run(spec, checked(engine.simulate_drop(spec)));
 }
 
 export function startScene(engine: Module, toml: string, solver: 'exact' | 'fast'): SceneRun {
@@ -152,7 +151,7 @@ export function firstStep(engine: Module, spec: SceneSpec): Run {
   const options = { step_size, duration: step_size, sample_every: 1, solver: spec.solver };
   const simulation = checked(engine.simulate_scene(spec.toml, options));
   simulation.advance(1);
-  const run = new Run(engine, spec, checked(simulation.finish()));
+  const run = new Run(spec, checked(simulation.finish()));
   simulation.delete();
   return run;
 }

@@ -192,7 +192,7 @@ export class Session {
   private finish(name: SlotName, job: Job): void {
     this.jobs[name] = null;
     try {
-      const run = new Run(this.engine, job.spec, checked(job.simulation.finish()));
+      const run = new Run(job.spec, checked(job.simulation.finish()));
       this.take(name, run);
     } catch (error) {
       this.fail(name, error);

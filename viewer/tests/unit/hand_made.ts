@@ -44,5 +44,5 @@ export function handMade(times: number[], parts: Parts = {}): Run {
     csv: (table: string) => `${table} of this run\n`,
   };
   const spec: Spec = parts.spec ?? { kind: 'scene', toml: '', solver: 'exact' };
-  return new Run(engine, spec, handle as unknown as EngineRun);
+  return new Run(spec, handle as unknown as EngineRun);
 }
