@@ -120,6 +120,7 @@ export class App {
 
   // What is opened next takes the place of all that is shown.
   private leave(): void {
+    this.tell('');
     this.active = 'a';
     this.session.drop('b');
     this.opening.clear();
@@ -381,7 +382,6 @@ export class App {
     for (const example of examples) scene.append(new Option(example.title, example.name));
     scene.append(new Option('(from a file or a link)', '', false, false));
     scene.addEventListener('change', () => {
-      this.tell('');
       const example = examples.find(({ name }) => name === scene.value);
       this.open({ a: example ? { kind: 'scene', toml: example.toml, solver: 'exact' } : documentDrop, b: null, time: 0 });
     });

@@ -186,8 +186,9 @@ export class TimePlot {
       over.setPointerCapture(event.pointerId);
       follow(event);
     });
-    // A mouse leads without a press; a finger that only scrolls does not.
+    // A mouse leads without a press; a finger that only scrolls does not, nor a page that scrolls below the mouse.
     over.addEventListener('pointermove', (event) => {
+      if (event.movementX === 0 && event.movementY === 0) return;
       if (event.pointerType === 'mouse' || over.hasPointerCapture(event.pointerId)) follow(event);
     });
   }

@@ -41,8 +41,9 @@ export class Timeline {
     forward.addEventListener('click', () => events.onStep(1));
     this.play.addEventListener('click', () => this.toggle());
     this.slider.addEventListener('input', () => {
+      const time = Number(this.slider.value); // a pause puts the slider back
       this.pause();
-      events.onTime(Number(this.slider.value));
+      events.onTime(time);
     });
     // A range moves by its step; here that is a sample.
     this.slider.addEventListener('keydown', (event) => {

@@ -67,7 +67,12 @@ export function chromiumForFile(): Chromium {
 
 // Until the page is there and nothing is being simulated.
 export async function settled(page: Page): Promise<void> {
-  await page.waitForFunction(() => window.tumble?.runs.a && document.getElementById('progress')?.hidden);
+  const failure = await page.waitForFunction(() => {
+    const message = document.getElementById('message')?.textContent ?? '';
+    if (message.startsWith('The page could not start')) return message;
+    return window.tumble?.runs.a && document.getElementById('progress')?.hidden ? 'settled' : null;
+  });
+  expect(await failure.jsonValue()).toBe('settled');
 }
 
 export async function openSpec(page: Page, a: Spec, b: Spec | null = null, time = 0): Promise<void> {
