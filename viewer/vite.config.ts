@@ -20,9 +20,15 @@ function engineBytes(): Plugin {
   };
 }
 
+// Without blanks between tags, and without comments but the place where a run goes.
+function shortPage(): Plugin {
+  const shorten = (html: string): string => html.replace(/<!--(?!tumble-run).*?-->/gs, '').replace(/>\s+</g, '><');
+  return { name: 'short-page', transformIndexHtml: { order: 'pre', handler: shorten } };
+}
+
 export default defineConfig({
   base: './',
-  plugins: [engineBytes(), viteSingleFile({ removeViteModuleLoader: true })],
+  plugins: [engineBytes(), shortPage(), viteSingleFile({ removeViteModuleLoader: true })],
   resolve: {
     alias: {
       'tumble-engine': resolve(engine, 'tumble_engine.mjs'),
