@@ -2,7 +2,7 @@
 import type { Module } from 'tumble-engine';
 import type { Layer } from './draw';
 import { examples } from './examples';
-import { canSaveWebm, type Draw, saveCsv, saveGif, savePng, saveSvg, saveText, saveWebm } from './export';
+import { type Draw, saveCsv, saveGif, savePng, saveSvg, saveText } from './export';
 import { openFiles, readFiles } from './files';
 import { number } from './format';
 import { Inspector } from './inspector';
@@ -189,7 +189,7 @@ export class App {
       fade: isPlaying ? 0.3 * this.timeline.filmSpeed + 0.02 : 0,
     };
     this.timeline.setTime(time);
-    this.stage.show(layers, find<HTMLInputElement>('side').checked, this.session.startOf(this.slot, this.body), options);
+    this.stage.show(layers, find<HTMLInputElement>('side').checked, this.session.startOf(this.slot, this.body), this.active === 'a' ? 0 : 1, options);
     this.plots.setTime(time);
     // Nobody reads sixty texts a second.
     const now = performance.now();
@@ -321,7 +321,7 @@ export class App {
 
   // ---- Files ----
 
-  private async film(save: typeof saveGif): Promise<void> {
+  private async film(): Promise<void> {
     const run = this.runs.a;
     if (!run) return;
     this.timeline.pause();
@@ -332,7 +332,7 @@ export class App {
     find('message').hidden = false;
     const draw = (pen: Pen, width: number, height: number, time: number): void =>
       this.stage.draw(pen, width, height, this.layers(time));
-    const isSaved = await save(draw, run.duration, {
+    const isSaved = await saveGif(draw, run.duration, {
       width: 640,
       height: 400,
       fps: 25,
@@ -357,9 +357,8 @@ export class App {
       }],
       ['csv', 'Numbers (CSV)', () => this.runs.a && saveCsv(this.runs.a)],
       ['toml', 'Scene (TOML)', () => this.runs.a && saveText(this.runs.a.trajectory.scene, 'scene.toml')],
-      ['gif', 'Film (GIF)', () => this.film(saveGif)],
+      ['gif', 'Film (GIF)', () => this.film()],
     ];
-    if (canSaveWebm()) items.push(['webm', 'Film (WebM)', () => this.film(saveWebm)]);
     for (const [name, label, save] of items) {
       const item = element('button', 'menu-item', label);
       item.type = 'button';

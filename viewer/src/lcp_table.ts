@@ -68,16 +68,20 @@ function showValue({ node, value, dot }: Cell, name: string, x: number, unit: st
 export class LcpTable {
   private readonly caption = element('span');
   private readonly table = element('table', 'inspector-table');
+  private readonly matrix = element('table', 'inspector-table');
   private readonly relation = element('p', 'inspector-note');
   private rows: Row[] = [];
   private names = '';
 
   constructor(root: HTMLElement) {
-    const scroller = element('div', 'inspector-scroll', this.table);
-    scroller.tabIndex = 0;
-    scroller.setAttribute('role', 'region');
-    scroller.setAttribute('aria-label', 'The linear complementarity problem of this step');
-    root.append(scroller, this.relation);
+    for (const [table, label] of [[this.table, 'The pairs of this step'], [this.matrix, 'V and p of this step']] as const) {
+      const scroller = element('div', 'inspector-scroll', table);
+      scroller.tabIndex = 0;
+      scroller.setAttribute('role', 'region');
+      scroller.setAttribute('aria-label', label);
+      root.append(scroller);
+    }
+    root.append(this.relation);
   }
 
   show(problem: StepProblem): void {
@@ -98,18 +102,9 @@ export class LcpTable {
     setFormula(row.says, pairWords(nonzero, i));
   }
 
+  // Two tables, for a narrow panel: the pairs, which are what one wants to see, then what they are made of.
   private build({ z_names, w_names }: StepProblem): void {
-    const n = z_names.length;
-    setFormula(this.caption, `w = V z + p, row by row. Of each pair of z and w one is 0; ${mark} marks the one that is not.`);
-    const first = column('col', 'w');
-    first.rowSpan = 2;
-    const groups = element('tr', '', first, column('colgroup', 'V, times', n));
-    const heads = element('tr', '', ...z_names.map((name) => column('col', name)));
-    for (const [text, span] of [['p', 1], ['z', 2], ['w', 1], ['the pair', 1]] as const) {
-      const head = column('col', text, span);
-      head.rowSpan = 2;
-      groups.append(head);
-    }
+    setFormula(this.caption, `Of each pair of z and w one is 0; ${mark} marks the one that is not.`);
     this.rows = z_names.map(() => ({
       V: z_names.map(() => element('td')),
       p: element('td'),
@@ -117,13 +112,31 @@ export class LcpTable {
       w: valueCell(),
       says: element('td', 'inspector-says'),
     }));
-    const lines = this.rows.map((row, i) => {
-      const [name, zName] = [element('th', 'inspector-row-name'), element('td', 'inspector-symbol')];
-      name.scope = 'row';
-      setFormula(name, w_names[i] as string);
-      setFormula(zName, z_names[i] as string);
-      return element('tr', '', name, ...row.V, row.p, zName, row.z.node, row.w.node, row.says);
-    });
-    this.table.replaceChildren(element('caption', '', this.caption), element('thead', '', groups, heads), element('tbody', '', ...lines));
+    const named = (name: string): HTMLTableCellElement => {
+      const head = element('th', 'inspector-row-name');
+      head.scope = 'row';
+      setFormula(head, name);
+      return head;
+    };
+    const symbol = (name: string): HTMLElement => {
+      const cell = element('td', 'inspector-symbol');
+      setFormula(cell, name);
+      return cell;
+    };
+    const pairs = this.rows.map((row, i) =>
+      element('tr', '', named(z_names[i] as string), row.z.node, symbol(w_names[i] as string), row.w.node, row.says),
+    );
+    this.table.replaceChildren(
+      element('caption', '', this.caption),
+      element('thead', '', element('tr', '', column('colgroup', 'z', 2), column('colgroup', 'w', 2), column('col', 'the pair'))),
+      element('tbody', '', ...pairs),
+    );
+    const matrix = this.rows.map((row, i) => element('tr', '', named(w_names[i] as string), ...row.V, row.p));
+    const first = column('col', 'w = V z + p');
+    this.matrix.replaceChildren(
+      element('caption', '', element('span', '', 'V, times z, and p')),
+      element('thead', '', element('tr', '', first, ...z_names.map((name) => column('col', name)), column('col', 'p'))),
+      element('tbody', '', ...matrix),
+    );
   }
 }
