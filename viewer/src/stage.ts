@@ -39,6 +39,7 @@ export class Stage {
   private layers: Layer[] = [];
   private isSideBySide = false;
   private start: Start | null = null;
+  private pane = 0; // of the run that starts there, side by side
   private radius = 0.1;
   private options: DrawOptions = { ghosts: true, contacts: true, selected: 1, fade: 0 };
   private isDue = false;
@@ -56,11 +57,13 @@ export class Stage {
     new ResizeObserver(() => this.resize()).observe(root);
   }
 
-  show(layers: Layer[], isSideBySide: boolean, start: Start | null, options: DrawOptions): void {
+  // `layer` is the one whose start the handles change.
+  show(layers: Layer[], isSideBySide: boolean, start: Start | null, layer: number, options: DrawOptions): void {
     const first = layers[0];
     this.layers = layers;
     this.isSideBySide = isSideBySide && layers.length > 1;
     this.start = start;
+    this.pane = this.isSideBySide ? layer : 0;
     this.options = options;
     if (first) this.radius = radiusOf(first.run, options.selected);
     if (!this.isFitted) this.fit();
@@ -148,10 +151,16 @@ export class Stage {
 
   // ---- Handles ----
 
+  private get startView(): View {
+    const { width, height } = this.view;
+    return this.view.in(width, height, this.pane * width);
+  }
+
   private handlePoints(): Record<HandleName, [number, number]> | null {
     if (!this.start) return null;
     const { pose, velocity } = this.start;
-    const [px, py] = [this.view.toX(pose[0]), this.view.toY(pose[1])];
+    const view = this.startView;
+    const [px, py] = [view.toX(pose[0]), view.toY(pose[1])];
     const reach = this.reach();
     const spin = pose[2] + Math.PI / 2 + spinTurn * velocity[2];
     const speed = Math.hypot(velocity[0], velocity[1]);
@@ -263,10 +272,11 @@ export class Stage {
   private drag(name: HandleName, x: number, y: number): void {
     if (!this.start) return;
     const { pose, velocity } = this.start;
-    const [px, py] = [this.view.toX(pose[0]), this.view.toY(pose[1])];
+    const view = this.startView;
+    const [px, py] = [view.toX(pose[0]), view.toY(pose[1])];
     // To a tenth of a millimetre and of a degree: nobody means more digits with a mouse.
     const round = (value: number, digits = 4): number => Number(value.toFixed(digits));
-    if (name === 'body') this.change([round(this.view.worldX(x)), round(this.view.worldY(y)), pose[2]], velocity);
+    if (name === 'body') this.change([round(view.worldX(x)), round(view.worldY(y)), pose[2]], velocity);
     if (name === 'velocity') {
       const distance = Math.hypot(x - px, py - y);
       const share = distance > beyondTip ? (distance - beyondTip) / distance / velocityPixels : 0;

@@ -163,7 +163,11 @@ export class TimePlot {
       height,
       legend: { show: false },
       cursor: { show: false },
-      scales: { x: { time: false, range: (_, low, high) => [low, high > low ? high : low + 1] } },
+      scales: {
+        x: { time: false, range: (_, low, high) => [low, high > low ? high : low + 1] },
+        // What is 0 all the time would get a scale up to 100.
+        y: { range: (_, low, high) => (low === 0 && high === 0 ? [-1, 1] : uPlot.rangeNum(low, high, 0.1, true)) },
+      },
       axes: [
         { ...this.axis(), size: 28 },
         { ...this.axis(), size: (_, texts) => 14 + 7 * Math.max(...(texts ?? []).map((text) => text.length), 3) },

@@ -78,10 +78,25 @@ test.each([
   await page.locator('#side').check();
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   expect((await shot()).equals(overlaid)).toBe(false);
-  // Both handles and pictures are in the left half.
-  const [stage, handle] = [await page.locator('#stage').boundingBox(), await page.locator('[data-handle="body"]').boundingBox()];
-  if (!stage || !handle) throw new Error('no stage');
-  expect(handle.x).toBeLessThan(stage.x + stage.width);
+  // The handles are in the picture of the run that they change.
+  const isRight = async (): Promise<boolean> => {
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    const [stage, handle] = [await page.locator('#stage').boundingBox(), await page.locator('[data-handle="body"]').boundingBox()];
+    if (!stage || !handle) throw new Error('no stage');
+    return handle.x > stage.x + 0.5 * stage.width;
+  };
+  expect(await isRight()).toBe(true);
+  await page.locator('[data-handle="body"]').hover();
+  await page.mouse.down();
+  const [x, y] = await page.locator('[data-handle="body"]').boundingBox().then((box) => [(box?.x ?? 0) + 35, (box?.y ?? 0) + 30]);
+  await page.mouse.move(x as number, y as number);
+  await page.mouse.up();
+  await settled(page);
+  expect((await dropSpec(page, 'b')).q0[0]).toBeGreaterThan(0.01);
+  expect((await dropSpec(page, 'b')).q0[0]).toBeLessThan(1);
+  expect((await dropSpec(page, 'a')).q0[0]).toBe(0);
+  await page.locator('#slot-a').click();
+  expect(await isRight()).toBe(false);
   await page.locator('#compare').click();
   await settled(page);
 });

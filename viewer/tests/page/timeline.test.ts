@@ -115,7 +115,7 @@ describe('what a step decides', () => {
     expect(await section(page, 'Impulse plane').locator('canvas').getAttribute('aria-label')).toMatch(/\d/);
 
     await section(page, 'The complementarity problem').locator('summary').click();
-    const table = section(page, 'The complementarity problem').locator('table');
+    const table = section(page, 'The complementarity problem').locator('table').first();
     await table.waitFor();
     const cells = await page.evaluate((sample) => {
       const problem = window.tumble.runs.a?.problem(sample);

@@ -19,7 +19,7 @@ const contacts = { name: 'a.contacts.csv', text: '# tumble contacts 1\n' };
 const record = { name: 'drop.csv', text: '# tumble drop 1\r\n# l = 0.2 m\r\n' };
 const current = handMade([0, 0.1]);
 
-const handle = { trajectory: () => current.trajectory, record: () => null };
+const handle = { trajectory: () => current.trajectory, record: () => null, scene: () => current.scene };
 const read_record = vi.fn((..._: string[]): unknown => handle);
 const read_trajectory = vi.fn((..._: string[]): unknown => handle);
 const engine = { ...described, read_record, read_trajectory } as unknown as Module;

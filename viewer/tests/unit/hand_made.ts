@@ -40,6 +40,7 @@ export function handMade(times: number[], parts: Parts = {}): Run {
   const handle = {
     trajectory: () => trajectory,
     record: () => parts.record ?? null,
+    scene: () => scene,
     body_series: () => parts.series,
     csv: (table: string) => `${table} of this run\n`,
   };
