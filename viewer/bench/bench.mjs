@@ -153,7 +153,7 @@ const simulatePile = (page) =>
   page.evaluate(async (toml) => {
     const start = performance.now();
     window.tumble.open({ a: { kind: 'scene', toml, solver: 'exact' }, b: null, time: 0 });
-    while (window.tumble.runs.a.spec.toml !== toml) await new Promise((done) => setTimeout(done, 5));
+    while (window.tumble.runs.a.spec.toml !== toml || window.tumble.runs.a.duration < 1) await new Promise((done) => setTimeout(done, 5));
     return performance.now() - start;
   }, pile);
 
