@@ -1,4 +1,6 @@
 // The module of the browser page. Every function returns its result or {error: text}; tumble.d.mts has the types.
+#include <cmath>
+
 #include "run.hpp"
 #include "scene_edit.hpp"
 
@@ -39,8 +41,9 @@ DropStart drop_start(const val& spec) {
   p.delta = number_at(spec, "delta");
   p.g = number_at(spec, "g");
   const double columns = number_at(spec, "columns");
-  if (!(columns >= 2.0 && columns <= drop::k_max_columns))
-    throw std::invalid_argument(fmt::format("columns: must be in [2, {}], got {}", drop::k_max_columns, columns));
+  if (!(columns >= 2.0 && columns <= drop::k_max_columns && columns == std::floor(columns)))
+    throw std::invalid_argument(
+        fmt::format("columns: must be a whole number in [2, {}], got {}", drop::k_max_columns, columns));
   p.columns = static_cast<int>(columns);
   return start;
 }
@@ -106,6 +109,12 @@ val impulse_planes(const Run& run, int k) {
 val csv(const Run& run, const std::string& table) {
   return guarded([&] { return val(run.csv(table)); });
 }
+val trajectory(const Run& run) {
+  return guarded([&] { return run.trajectory(); });
+}
+val scene(const Run& run) {
+  return guarded([&] { return run.scene(); });
+}
 val finish(SceneRun& run) {
   return guarded([&] { return handle(run.finish()); });
 }
@@ -117,9 +126,9 @@ EMSCRIPTEN_BINDINGS(tumble) {
   constant("version", std::string(TUMBLE_VERSION));
   class_<Run>("Run")
       .smart_ptr<std::shared_ptr<Run>>("Run")
-      .function("trajectory", &Run::trajectory)
+      .function("trajectory", &trajectory)
       .function("record", &Run::record)
-      .function("scene", &Run::scene)
+      .function("scene", &scene)
       .function("body_series", &Run::body_series)
       .function("problem", &problem)
       .function("impulse_planes", &impulse_planes)

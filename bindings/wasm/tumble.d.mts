@@ -3,10 +3,8 @@
 export type Triple = [number, number, number];
 export type Failure = { error: string };
 
-// The document's drop: q0 and v0 are (x, y, theta) and (vx, vy, omega).
-export interface DropStart {
-  q0: Triple;
-  v0: Triple;
+// Of the document's drop.
+export interface DropParameters {
   l: number;
   m: number;
   mu: number;
@@ -15,6 +13,12 @@ export interface DropStart {
   delta: number;
   g: number;
   columns: number;
+}
+
+// q0 and v0 are (x, y, theta) and (vx, vy, omega).
+export interface DropStart extends DropParameters {
+  q0: Triple;
+  v0: Triple;
 }
 
 export interface SceneOptions {
@@ -75,7 +79,7 @@ export interface TrajectoryArrays {
 }
 
 // The arrays of a record of the drop as in .npz files.
-export interface RecordArrays {
+export interface RecordArrays extends DropParameters {
   t: Float64Array;
   q: Float64Array; // 3 x T
   v: Float64Array;
@@ -87,14 +91,6 @@ export interface RecordArrays {
   residual: Float64Array;
   kinetic: Float64Array;
   potential: Float64Array;
-  l: number;
-  m: number;
-  mu: number;
-  eps: number;
-  dt: number;
-  delta: number;
-  g: number;
-  columns: number;
 }
 
 // Per sample, of the step that leaves it; NaN where the body has no contact.
@@ -179,9 +175,9 @@ export interface SceneEdits {
 
 // Memory of the module: `delete` gives it back.
 export interface Run {
-  trajectory(): TrajectoryArrays;
+  trajectory(): TrajectoryArrays | Failure;
   record(): RecordArrays | null;
-  scene(): SceneInfo;
+  scene(): SceneInfo | Failure;
   body_series(body: number): BodySeries;
   problem(sample: number): StepProblem | null | Failure;
   impulse_planes(sample: number): ImpulsePlane[] | Failure;

@@ -10,7 +10,7 @@ import { element, setText } from './markup';
 import { dropParameters, dropValues, Parameters, sceneParameters, startParameters, startValues } from './parameters';
 import type { Pen } from './pen';
 import { Plots, type ShownRun } from './plots';
-import { documentDrop, Run, type DropSpec, type Spec, type TextFile } from './run';
+import { askedFor, documentDrop, Run, type DropSpec, type Spec, type TextFile } from './run';
 import { Session, type Slot, type SlotName } from './session';
 import { encode, type Shared } from './share';
 import { Stage } from './stage';
@@ -18,14 +18,6 @@ import { readTheme } from './theme';
 import { button, Timeline } from './timeline';
 
 const find = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
-
-// What a recorded run could have been asked for by, so that it can be changed.
-function specOf(run: Run): Spec {
-  const { record, trajectory } = run;
-  if (!record) return { kind: 'scene', toml: trajectory.scene, solver: 'exact' };
-  const { l, m, mu, eps, dt, delta, g, columns } = record;
-  return { kind: 'drop', model: 'document', q0: run.poseAt(0, 1), v0: run.velocityAt(0, 1), l, m, mu, eps, dt, delta, g, columns };
-}
 
 const inspectionInterval = 150; // [ms] while the film runs
 
@@ -106,13 +98,12 @@ export class App {
     this.leave();
     find<HTMLSelectElement>('scene').value = '';
     if (opened instanceof Run) {
-      const spec = specOf(opened);
-      this.home = spec;
-      this.session.setRun('a', new Run(spec, opened.handle));
+      this.home = askedFor(opened);
+      this.session.setRun('a', opened);
       this.tell(`A recorded run of ${number(opened.duration)} s. A change of a parameter simulates anew.`);
     } else {
       this.home = { kind: 'scene', toml: opened.toml, solver: 'exact' };
-      this.session.set('a', this.home);
+      this.session.set('a', this.home, true);
     }
     this.showRuns();
     this.setTime(0);
@@ -202,7 +193,8 @@ export class App {
   private showControls(): void {
     const slot = this.slot;
     if (!slot?.run) return;
-    const { spec, run } = slot;
+    const { run } = slot;
+    const spec = this.session.asked(slot);
     const start = this.session.startOf(slot, this.body);
     if (spec.kind === 'drop') {
       this.parameters.show(dropParameters, dropValues(spec));
@@ -254,7 +246,7 @@ export class App {
     const slot = this.slot;
     if (!slot) return;
     try {
-      this.session.set(this.active, to(slot.spec));
+      this.session.set(this.active, to(this.session.asked(slot)));
       this.showControls();
       this.showMoment();
     } catch (error) {
@@ -287,8 +279,9 @@ export class App {
       this.showRuns();
       return;
     }
-    const spec = this.session.slots.a?.spec;
-    if (!spec) return;
+    const slot = this.session.slots.a;
+    if (!slot) return;
+    const spec = this.session.asked(slot);
     // The other model is what one wants to see beside a drop first.
     const other: Spec = spec.kind === 'drop' ? { ...spec, model: spec.model === 'document' ? 'scene' : 'document' } : spec;
     this.session.set('b', other);

@@ -61,9 +61,9 @@ export class Run {
     readonly handle: EngineRun,
   ) {
     try {
-      this.trajectory = handle.trajectory();
+      this.trajectory = checked(handle.trajectory());
       this.record = handle.record();
-      this.scene = handle.scene();
+      this.scene = checked(handle.scene());
     } catch (error) {
       handle.delete();
       throw error;
@@ -129,6 +129,15 @@ export class Run {
   release(): void {
     this.handle.delete();
   }
+}
+
+// What a recorded run may have been asked for by: what a change of it starts from. Whether that gives the same bits, only
+// those know who recorded it.
+export function askedFor(run: Run): DropSpec | SceneSpec {
+  const { record, trajectory } = run;
+  if (!record) return { kind: 'scene', toml: trajectory.scene, solver: 'exact' };
+  const { l, m, mu, eps, dt, delta, g, columns } = record;
+  return { kind: 'drop', model: 'document', q0: run.poseAt(0, 1), v0: run.velocityAt(0, 1), l, m, mu, eps, dt, delta, g, columns };
 }
 
 // At most so many samples are simulated.

@@ -1,7 +1,7 @@
 // What the page is about: one run or two, each from its spec, and how a change of a spec becomes a new run.
 import type { Module, SceneEdits, SceneInfo, SceneRun, Triple } from 'tumble-engine';
 import { checked } from './engine';
-import { firstDynamic, firstStep, Run, simulateDrop, startScene, type DropSpec, type Spec } from './run';
+import { askedFor, firstDynamic, firstStep, Run, simulateDrop, startScene, type DropSpec, type Spec } from './run';
 import type { Start } from './stage';
 
 export type SlotName = 'a' | 'b';
@@ -113,6 +113,9 @@ export class Session {
     }
     return this.edited(spec, { [key]: value } as SceneEdits);
   }
+  asked({ spec, run }: Slot): Spec {
+    return spec.kind === 'recorded' && run ? askedFor(run) : spec;
+  }
   // The scene that is asked for, which may be ahead of the run that is shown.
   sceneOf(slot: Slot): SceneInfo | null {
     if (slot.spec.kind !== 'scene') return slot.run?.scene ?? null;
@@ -122,8 +125,9 @@ export class Session {
   }
   // Where the handles of a body are.
   startOf(slot: Slot | null, body: number): Start | null {
-    if (!slot?.run || slot.spec.kind === 'recorded') return null;
-    if (slot.spec.kind === 'drop') return { pose: slot.spec.q0, velocity: slot.spec.v0 };
+    if (!slot?.run) return null;
+    const spec = this.asked(slot);
+    if (spec.kind === 'drop') return { pose: spec.q0, velocity: spec.v0 };
     const info = this.sceneOf(slot)?.bodies[body];
     return info?.kind === 'dynamic' ? { pose: info.pose, velocity: info.velocity } : null;
   }

@@ -23,6 +23,9 @@ describe('files that are opened', () => {
     await expectPlotted(page, expectedOfDrop(csv));
     const [saved] = await save(page, 'csv');
     expectSameText(saved?.text ?? '', csv, 'drop.csv');
+    // A link would simulate anew, which need not give what was recorded.
+    await page.locator('#share').click();
+    await expect.poll(() => told(page)).toBe('A recorded run does not fit into a link. Share its files instead.');
     await page.locator('.parameter[data-key="mu"] .entry').fill('0.2');
     expect(await dropSpec(page)).toEqual({ ...changed, mu: 0.2 });
     await expectTrueDrop(page);

@@ -41,7 +41,7 @@ test('bad numbers show a line at the field, and the last run stays', async () =>
   const page = await browser.open();
   await page.locator('#start-section > summary').click();
   const before = await plotted(page);
-  for (const [key, text] of [['mu', '-1'], ['eps', '1.5'], ['l', '0'], ['m', '-0.3'], ['dt', '0'], ['delta', '-1'], ['columns', '1'], ['columns', '1e300'], ['q0.1', '1e400'], ['mu', 'abc'], ['mu', ''], ['mu', 'NaN'], ['mu', '0x'], ['v0.2', 'Infinity']] as const) {
+  for (const [key, text] of [['mu', '-1'], ['eps', '1.5'], ['l', '0'], ['m', '-0.3'], ['dt', '0'], ['delta', '-1'], ['columns', '1'], ['columns', '1e300'], ['columns', '20.5'], ['q0.1', '1e400'], ['mu', 'abc'], ['mu', ''], ['mu', 'NaN'], ['mu', '0x'], ['v0.2', 'Infinity']] as const) {
     const good = await entry(page, key).inputValue();
     await entry(page, key).fill(text);
     const message = await line(page, key);
