@@ -13,13 +13,11 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include "tumble/scene/toml_charconv.hpp"  // before toml++
-
-#include <toml++/toml.h>
 
 #include "tumble/math/numeric.hpp"
 #include "tumble/scene/check.hpp"
 #include "tumble/scene/suggestion.hpp"
+#include "tumble/scene/toml_plus_plus.hpp"
 
 namespace tumble::toml_reading {
 

@@ -1,5 +1,5 @@
-// What toml++ needs of <charconv> and the library of emscripten 3.1.6 does not have: numbers of type double. Without it
-// toml++ reads them through streams, whose locales are a third of the browser's module.
+// toml++, and before it what it needs of <charconv> and the library of emscripten 3.1.6 does not have: numbers of type
+// double. Without these toml++ reads them through streams, whose locales are a third of the browser's module.
 #pragma once
 
 #include <charconv>
@@ -30,16 +30,16 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
 
 // toml++ prints nothing here.
 template <class Number>
-  requires is_floating_point_v<Number>
-to_chars_result to_chars(char*, char* last, Number) {
+requires is_floating_point_v<Number> to_chars_result to_chars(char*, char* last, Number) {
   return {last, errc::value_too_large};
 }
 template <class Number>
-  requires is_floating_point_v<Number>
-to_chars_result to_chars(char*, char* last, Number, chars_format, int = 0) {
+requires is_floating_point_v<Number> to_chars_result to_chars(char*, char* last, Number, chars_format, int = 0) {
   return {last, errc::value_too_large};
 }
 
 }  // namespace std
 
 #endif
+
+#include <toml++/toml.h>
