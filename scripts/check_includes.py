@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Check the include rule: a folder of src/tumble includes only itself and the folders before it.
 
-The order is math, lcp, scene, geometry, contact, step, trajectory, drop, explain, output; cli and bindings may include all of them.
+The order is math, lcp, scene, geometry, contact, step, trajectory, drop, batch, explain, output, sweep; cli and bindings may include all of them.
 Prints one line "file:line: what is wrong" for each fault and exits with 1 if there is one.
 """
 
@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-ORDER = ("math", "lcp", "scene", "geometry", "contact", "step", "trajectory", "drop", "explain", "output")
+ORDER = ("math", "lcp", "scene", "geometry", "contact", "step", "trajectory", "drop", "batch", "explain", "output", "sweep")
 SUFFIXES = {".cpp", ".hpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

@@ -1,6 +1,8 @@
 // All public headers.
 #pragma once
 
+#include "tumble/batch/parallel.hpp"
+#include "tumble/batch/simulate_batch.hpp"
 #include "tumble/contact/island_solver.hpp"
 #include "tumble/contact/restitution.hpp"
 #include "tumble/drop/drop.hpp"
@@ -29,6 +31,7 @@
 #include "tumble/lcp/solution_face.hpp"
 #include "tumble/lcp/solve.hpp"
 #include "tumble/lcp/solve_contacts.hpp"
+#include "tumble/math/instruction_set.hpp"
 #include "tumble/math/pose.hpp"
 #include "tumble/math/sin_cos.hpp"
 #include "tumble/math/vector.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tumble/math/instruction_sets.hpp"
+#include "tumble/math/target_clones.hpp"
 
 namespace tumble {
 namespace {

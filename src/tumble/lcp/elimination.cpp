@@ -1,6 +1,6 @@
 #include "tumble/lcp/elimination.hpp"
 
-#include "tumble/math/instruction_sets.hpp"
+#include "tumble/math/target_clones.hpp"
 
 namespace tumble {
 

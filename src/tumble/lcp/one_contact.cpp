@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "tumble/lcp/one_contact_lanes.hpp"
-#include "tumble/math/instruction_sets.hpp"
+#include "tumble/math/instruction_set.hpp"
 
 namespace tumble {
 namespace {
@@ -194,7 +194,7 @@ void solve_one_contacts(const OneContactArrays& contacts, const OneContactSoluti
   for (std::size_t first = 0; first < count; first += block_size) {
     const std::size_t size = std::min(block_size, count - first);
     std::array<std::uint8_t, block_size> is_done{};
-    if (size == block_size && solve_block(contacts, solutions, first, is_done.data())) continue;
+    if (size == block_size && solve_block != nullptr && solve_block(contacts, solutions, first, is_done.data())) continue;
     for (std::size_t k = 0; k < size; ++k) {
       if (is_done[k] != 0) continue;
       const std::size_t i = first + k;

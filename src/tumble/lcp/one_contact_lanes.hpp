@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "tumble/lcp/one_contact.hpp"
-#include "tumble/math/instruction_sets.hpp"
+#include "tumble/math/instruction_set.hpp"
 
 namespace tumble::one_contact {
 
@@ -22,13 +22,13 @@ bool solve_block_baseline(const OneContactArrays&, const OneContactSolutionArray
 bool solve_block_avx2(const OneContactArrays&, const OneContactSolutionArrays&, std::size_t, std::uint8_t*);
 bool solve_block_avx512(const OneContactArrays&, const OneContactSolutionArrays&, std::size_t, std::uint8_t*);
 
+// nullptr for scalar.
 inline BlockSolver block_solver(InstructionSet set) {
 #if TUMBLE_HAS_X86_SETS
   if (set == InstructionSet::avx512) return solve_block_avx512;
   if (set == InstructionSet::avx2) return solve_block_avx2;
 #endif
-  static_cast<void>(set);
-  return solve_block_baseline;
+  return set == InstructionSet::scalar ? nullptr : solve_block_baseline;
 }
 
 }  // namespace tumble::one_contact

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "tumble/math/bit_cast.hpp"
-#include "tumble/math/instruction_sets.hpp"
+#include "tumble/math/target_clones.hpp"
 
 namespace tumble {
 

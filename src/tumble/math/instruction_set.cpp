@@ -1,0 +1,66 @@
+#include "tumble/math/instruction_set.hpp"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr InstructionSet k_sets[] = {InstructionSet::scalar, InstructionSet::baseline, InstructionSet::avx2,
+                                     InstructionSet::avx512};
+
+InstructionSet widest() {
+  if (has_instruction_set(InstructionSet::avx512)) return InstructionSet::avx512;
+  return has_instruction_set(InstructionSet::avx2) ? InstructionSet::avx2 : InstructionSet::baseline;
+}
+
+InstructionSet named(std::string_view name) {
+  std::string names;
+  for (const InstructionSet set : k_sets) {
+    if (!has_instruction_set(set)) continue;
+    if (name == to_string(set)) return set;
+    names += (names.empty() ? "" : ", ") + std::string(to_string(set));
+  }
+  throw std::invalid_argument(
+      fmt::format("TUMBLE_INSTRUCTION_SET: must be one of {} on this machine, got '{}'", names, name));
+}
+
+}  // namespace
+
+std::string_view to_string(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::scalar: return "scalar";
+    case InstructionSet::avx2: return "avx2";
+    case InstructionSet::avx512: return "avx512";
+    case InstructionSet::baseline: break;
+  }
+#if defined(__EMSCRIPTEN__)
+  return "simd128";
+#elif defined(__aarch64__)
+  return "neon";
+#elif defined(__x86_64__)
+  return "sse2";
+#else
+  return "vectors";
+#endif
+}
+
+bool has_instruction_set(InstructionSet set) {
+#if TUMBLE_HAS_X86_SETS
+  if (set == InstructionSet::avx512) return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+  if (set == InstructionSet::avx2) return __builtin_cpu_supports("avx2");
+#endif
+  return set == InstructionSet::scalar || set == InstructionSet::baseline;
+}
+
+InstructionSet instruction_set() {
+  const char* name = std::getenv("TUMBLE_INSTRUCTION_SET");
+  if (name != nullptr && *name != '\0') return named(name);
+  static const InstructionSet set = widest();
+  return set;
+}
+
+}  // namespace tumble
