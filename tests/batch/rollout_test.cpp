@@ -185,7 +185,7 @@ struct Named {
 
 class RolloutOf : public testing::TestWithParam<Named> {};
 
-TEST_P(RolloutOf, TheInstancesIsWhatSimulateGivesForEach) {
+TEST_P(RolloutOf, TheInstancesAreWhatSimulateGivesForEach) {
   constexpr Index count = 12;
   const Case c = random_case(GetParam().name, count, 1);
   for (const int every : {0, 7}) {
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(NamedScenes, RolloutOf,
                          testing::Values(Named{"drop", 1500}, Named{"billiard", 800}, Named{"bouncing_balls", 800},
                                          Named{"capsule_and_rounded", 800}, Named{"compound", 800},
                                          Named{"conveyor", 800}, Named{"ellipse_drop", 800}, Named{"funnel", 200},
-                                         Named{"pusher", 500}, Named{"stack", 300}, Named{"terrain", 800},
+                                         Named{"pusher", 500}, Named{"stack", 60}, Named{"terrain", 800},
                                          Named{"tilting_table", 300}, Named{"wedge", 300}, Named{"dominoes", 100}),
                          [](const auto& named) { return std::string(named.param.name); });
 
@@ -482,7 +482,7 @@ TEST(Rollout, RefusesInOneLine) {
   EXPECT_EQ(with([](Case& c) {
               c.velocity = {0, k_nan, 0};
             }),
-            "bodies[1] 'box': velocity[1]: must be in [-1e+09, 1e+09] m/s, got nan");
+            "bodies[1] 'box': velocity[1]: must be in [-1000000000, 1000000000] m/s, got nan");
   EXPECT_EQ(with([](Case& c) { c.vary(Quantity::mass, 1, {-1.0}); }),
             "bodies[1] 'box': mass: must be in [1e-60, 1e+60] kg, got -1");
   EXPECT_EQ(with([](Case& c) { c.vary(Quantity::mass, 0, {1.0}); }),
