@@ -90,12 +90,12 @@ def simulate(
     """
     require_scene(scene)
     run = _core.Run(scene._core, step_size, duration, sample_every, solver, num_sweeps, contacts)
-    line = _ProgressLine(run) if progress and sys.stderr.isatty() else None
+    line = ProgressLine() if wants_progress(progress) else None
     try:
         while not run.is_done:
             run.run_for(_SECONDS_BETWEEN_LOOKS)
             if line is not None:
-                line.show()
+                line.show(run.step / run.num_steps, f"{run.time:.4g} s")
     except KeyboardInterrupt:
         raise Interrupted(Trajectory(run.finish(), contacts)) from None
     finally:
@@ -127,25 +127,30 @@ def _remarks(trajectory: Trajectory) -> list[str]:
     return texts
 
 
-class _ProgressLine:
+def wants_progress(progress: bool) -> bool:
+    """Whether to show it: if it is asked for and standard error is a terminal."""
+    return progress and sys.stderr.isatty()
+
+
+class ProgressLine:
     """One line on the terminal, written over and over."""
 
-    def __init__(self, run: _core.Run) -> None:
-        self._run = run
+    def __init__(self) -> None:
         self._start = time.monotonic()
         self._shown = 0.0
 
-    def show(self) -> None:
+    def show(self, share: float, text: str) -> None:
+        """The share of the work that is done, 0 to 1, and in other words."""
         passed = time.monotonic() - self._start
-        if passed < _SECONDS_BEFORE_PROGRESS or passed - self._shown < _SECONDS_BETWEEN_LINES or self._run.step == 0:
+        if passed < _SECONDS_BEFORE_PROGRESS or passed - self._shown < _SECONDS_BETWEEN_LINES or share == 0.0:
             return
         self._shown = passed
-        share = self._run.step / self._run.num_steps
         left = passed / share - passed
-        sys.stderr.write(f"\r\x1b[K{100 * share:5.1f} %  {self._run.time:.4g} s  {left:.0f} s left")
+        sys.stderr.write(f"\r\x1b[K{100 * share:5.1f} %  {text}  {left:.0f} s left")
         sys.stderr.flush()
 
     def clear(self) -> None:
+        """Leave no trace of it."""
         if self._shown > 0.0:
             sys.stderr.write("\r\x1b[K")
             sys.stderr.flush()
