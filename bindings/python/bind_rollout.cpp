@@ -277,12 +277,6 @@ batch::RolloutSettings as_settings(const py::dict& fields) {
   return settings;
 }
 
-Index as_instance(const Inputs& inputs, const py::handle& object) {
-  const auto count = static_cast<int>(std::min<Index>(inputs.instances().count, std::numeric_limits<int>::max()));
-  if (count == 0) throw py::index_error("instance: there is none");
-  return static_cast<Index>(as_whole_number(object, "instance", 0, count - 1));
-}
-
 }  // namespace
 
 void bind_rollout(py::module_& module) {
@@ -301,15 +295,13 @@ void bind_rollout(py::module_& module) {
       .def("scene", [](const Inputs& inputs) { return handle_of(inputs.scene()); })
       .def(
           "scene_of",
-          [](const Inputs& inputs, const py::object& i) {
-            return handle_of(batch::instance_scene(inputs.scene(), inputs.instances(), as_instance(inputs, i)));
+          [](const Inputs& inputs, Index i) {
+            return handle_of(batch::instance_scene(inputs.scene(), inputs.instances(), i));
           },
           "instance"_a)
       .def(
           "what_is_invalid",
-          [](const Inputs& inputs, const py::object& i) {
-            return batch::what_is_invalid(inputs.scene(), inputs.instances(), as_instance(inputs, i));
-          },
+          [](const Inputs& inputs, Index i) { return batch::what_is_invalid(inputs.scene(), inputs.instances(), i); },
           "instance"_a)
       .def_property_readonly("bodies",
                              [](const Inputs& inputs) {

@@ -157,8 +157,8 @@ def test_what_is_told() -> None:
     # The same sums in another order: samples are added to by numpy pairwise.
     assert result.energy.friction_loss[0] == pytest.approx(energy.friction_loss.sum(), rel=1e-12)
     assert np.isnan(result.energy_lost[3]) and np.isnan(result.pose[3]).all() and np.isnan(result.energy.kinetic[3])
-    assert result.what_is_invalid(3) == "bodies[1] 'box': pose.position.x: must be in [-1000000000000, 1000000000000] m, got nan"
-    assert result.what_is_invalid(0) == ""
+    assert result.why(3) == "bodies[1] 'box': pose.position.x: must be in [-1000000000000, 1000000000000] m, got nan"
+    assert result.why(0) == ""
 
 
 def test_a_bad_instance_changes_no_other() -> None:
@@ -309,7 +309,6 @@ def test_what_the_progress_raises_comes_out(monkeypatch: pytest.MonkeyPatch) -> 
         def clear(self) -> None:
             pass
 
-    monkeypatch.setattr("tumble._rollout.wants_progress", lambda progress: progress)
     monkeypatch.setattr("tumble._rollout.ProgressLine", Line)
     with pytest.raises(Stop, match="of 2"):
         rollout(load("drop"), friction=[0.1, 0.2], duration=1e4, progress=True)
@@ -359,5 +358,5 @@ def test_it_refuses_what_is_no_scene_and_no_instance() -> None:
         two.add_body(tumble.disc(1), mass=1, name=name)
     refuse_in_one_line(lambda: rollout(two, mass=1), ValueError, "mass: must be a dict of bodies")
     result: Rollout = rollout(make_scene())
-    refuse_in_one_line(lambda: result.scene_of(1), ValueError, "instance: must be a whole number in [0, 0], got 1")
+    refuse_in_one_line(lambda: result.scene_of(1), IndexError, "instance: must be in [-1, 0], got 1")
     refuse_in_one_line(lambda: result["ground"], ValueError, "body: must be one that moves freely")

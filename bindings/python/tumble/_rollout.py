@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from tumble import _core
 from tumble._bodies import Body, Material
+from tumble._progress import ProgressLine
 from tumble._scene import Scene, require_scene
-from tumble._simulate import ProgressLine, wants_progress
 from tumble._trajectory import BodyName, index_of
 
 MaterialKey = Union[str, Material, tuple[Union[str, Material], Union[str, Material]]]
@@ -90,7 +90,7 @@ class Rollout:
         did not reach; where the last one would be without samples, the last state reached.
     status : ndarray of str, shape (N,)
         "solved", or with what the run ended early, as in `Trajectory`; "bad_input": NaN or out of range, not run, see
-        `what_is_invalid`.
+        `why`.
     num_steps : ndarray of int, shape (N,)
         Steps taken.
     residual : ndarray, shape (N,)
@@ -147,8 +147,8 @@ class Rollout:
 
         Raises
         ------
-        ValueError
-            For a number that is not in [0, N - 1].
+        IndexError
+            For a number that is not in [-N, N - 1].
 
         >>> import tumble
         >>> scene = tumble.Scene(duration=0.5)
@@ -159,11 +159,16 @@ class Rollout:
         >>> bool((trajectory["ball"].pose[-1] == result["ball"].pose[1]).all())
         True
         """
-        return Scene._of(self._inputs.scene_of(instance))
+        return Scene._of(self._inputs.scene_of(self._number(instance)))
 
-    def what_is_invalid(self, instance: int) -> str:
+    def why(self, instance: int) -> str:
         """Why an instance was not run, in one line; "" if it was. Raises as `scene_of`."""
-        return self._inputs.what_is_invalid(instance)
+        return self._inputs.what_is_invalid(self._number(instance))
+
+    def _number(self, instance: int) -> int:
+        if not -len(self) <= instance < len(self):
+            raise IndexError(f"instance: must be in [{-len(self)}, {len(self) - 1}], got {instance}")
+        return instance % len(self)
 
     def __getitem__(self, body: BodyName) -> BodyRollout:
         index = index_of(self.scene, body)
@@ -275,7 +280,7 @@ def rollout(
     if gravity is not None:
         inputs.set_gravity(gravity)
     inputs.finish()
-    line = ProgressLine() if wants_progress(progress) else None
+    line = ProgressLine() if progress else None
     settings = {
         "step_size": step_size,
         "duration": duration,

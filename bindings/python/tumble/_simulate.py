@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import sys
-import time
 import warnings
 
 from tumble import _core
+from tumble._progress import ProgressLine
 from tumble._scene import Scene, require_scene
 from tumble._trajectory import Trajectory
 
 _SECONDS_BETWEEN_LOOKS = 0.05  # for Ctrl-C and the progress line
-_SECONDS_BEFORE_PROGRESS = 1.0  # what takes less needs none
-_SECONDS_BETWEEN_LINES = 0.2
 
 
 class SimulationWarning(UserWarning):
@@ -90,7 +87,7 @@ def simulate(
     """
     require_scene(scene)
     run = _core.Run(scene._core, step_size, duration, sample_every, solver, num_sweeps, contacts)
-    line = ProgressLine() if wants_progress(progress) else None
+    line = ProgressLine() if progress else None
     try:
         while not run.is_done:
             run.run_for(_SECONDS_BETWEEN_LOOKS)
@@ -125,32 +122,3 @@ def _remarks(trajectory: Trajectory) -> list[str]:
             f"{trajectory.first_creation:g} s"
         )
     return texts
-
-
-def wants_progress(progress: bool) -> bool:
-    """Whether to show it: if it is asked for and standard error is a terminal."""
-    return progress and sys.stderr.isatty()
-
-
-class ProgressLine:
-    """One line on the terminal, written over and over."""
-
-    def __init__(self) -> None:
-        self._start = time.monotonic()
-        self._shown = 0.0
-
-    def show(self, share: float, text: str) -> None:
-        """The share of the work that is done, 0 to 1, and in other words."""
-        passed = time.monotonic() - self._start
-        if passed < _SECONDS_BEFORE_PROGRESS or passed - self._shown < _SECONDS_BETWEEN_LINES or share == 0.0:
-            return
-        self._shown = passed
-        left = passed / share - passed
-        sys.stderr.write(f"\r\x1b[K{100 * share:5.1f} %  {text}  {left:.0f} s left")
-        sys.stderr.flush()
-
-    def clear(self) -> None:
-        """Leave no trace of it."""
-        if self._shown > 0.0:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()
