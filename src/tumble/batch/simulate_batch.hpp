@@ -28,7 +28,7 @@ struct DropStarts {
 // The parameters of N drops. Each array has N entries, or one that holds for all, or none: the document's value then.
 // Units and ranges as in drop::Parameters.
 struct DropParameters {
-  std::span<const double> l, m, mu, eps, dt, delta, g;
+  std::span<const double> l{}, m{}, mu{}, eps{}, dt{}, delta{}, g{};
   int columns = 150;
 };
 
@@ -73,10 +73,10 @@ struct BatchSettings {
 // Where results go; an empty array is not wanted.
 template <class Real>
 struct DropResults {
-  std::span<Real> q, v;              // N x 3 x kept_columns. NaN where a drop has no good column
-  std::span<DropStatus> status;      // N
-  std::span<std::int32_t> columns;   // N; columns that are good, all of them if solved
-  std::span<DropMeasures> measures;  // N
+  std::span<Real> q{}, v{};              // N x 3 x kept_columns. NaN where a drop has no good column
+  std::span<DropStatus> status{};      // N
+  std::span<std::int32_t> columns{};   // N; columns that are good, all of them if solved
+  std::span<DropMeasures> measures{};  // N
 };
 
 // Columns of q and v for settings.every: 1, or ceil(columns / every).

@@ -1,5 +1,5 @@
-// The instruction sets that code in vectors is compiled for, and which of them this processor has. Contraction is off in
-// all of them (cmake/TumbleTarget.cmake), so their results are equal bit for bit.
+// The instruction sets that code in vectors is compiled for, and which of them this processor has. Contraction is off
+// in all of them (cmake/TumbleTarget.cmake), so their results are equal bit for bit.
 #pragma once
 
 #include <string_view>

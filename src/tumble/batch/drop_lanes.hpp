@@ -1,0 +1,69 @@
+// The document's step for many drops side by side, in the lanes of vector registers. One translation unit per
+// instruction set (drop_lanes_*.cpp) makes the same template. Not a public header.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "tumble/math/instruction_set.hpp"
+
+namespace tumble::batch {
+
+// Drops that run together, an array for each of their numbers, small enough to stay in the first-level cache.
+template <class Real>
+struct DropBlock {
+  static constexpr std::size_t k_capacity = 128;
+  using Array = Real[k_capacity];
+
+  // States.
+  alignas(64) Array x, y, theta, vx, vy, omega;
+
+  // What the step needs of the parameters.
+  alignas(64) Array half_l, inverse_m, inverse_I, mu, bounce /* 1 + eps */, dt, delta, g;
+  alignas(64) Array clear_height;  // above it no corner is within delta, whatever the angle
+
+  // 1 while all that the drop did was ordinary, else 0: see `advance_drops`.
+  alignas(64) Array is_ordinary;
+
+  // What measures are made of. Columns are numbered as in drop::Trajectory; -1 is none.
+  alignas(64) Array gyration;  // l^2 / 6 [m^2]
+  alignas(64) Array last_contact, impacts, max_force_time /* max f_n dt */, was_closed /* 0 or 1 */,
+      last_moving, escape;
+};
+
+// Bounds for measures.
+template <class Real>
+struct MeasureBounds {
+  Real rest_speed_squared, x_min, x_max;
+};
+
+// `num_steps` steps of the first `size` drops, from column `first_column` on; `bounds` null: without measures. The bits
+// are those of drop::step. That holds for what is ordinary: |theta| moderate, sizes of forces and speeds far from the
+// ends of the range, contacts that are not all but singular. A drop for which one step was not is marked; its state
+// means nothing then. Beyond `size`, up to the next multiple of k_padding, the arrays hold anything harmless.
+template <class Real>
+using AdvanceDrops = void (*)(DropBlock<Real>& block, std::size_t size, int first_column, int num_steps,
+                              const MeasureBounds<Real>* bounds);
+
+constexpr std::size_t k_padding = 16;  // no instruction set has more lanes
+
+#define TUMBLE_DECLARE_ADVANCE_DROPS(set)                                                            \
+  void advance_drops_##set(DropBlock<double>&, std::size_t, int, int, const MeasureBounds<double>*); \
+  void advance_drops_##set(DropBlock<float>&, std::size_t, int, int, const MeasureBounds<float>*);
+TUMBLE_DECLARE_ADVANCE_DROPS(scalar)
+TUMBLE_DECLARE_ADVANCE_DROPS(baseline)
+TUMBLE_DECLARE_ADVANCE_DROPS(avx2)
+TUMBLE_DECLARE_ADVANCE_DROPS(avx512)
+#undef TUMBLE_DECLARE_ADVANCE_DROPS
+
+template <class Real>
+AdvanceDrops<Real> advance_drops(InstructionSet set) {
+#if TUMBLE_HAS_X86_SETS
+  if (set == InstructionSet::avx512) return advance_drops_avx512;
+  if (set == InstructionSet::avx2) return advance_drops_avx2;
+#endif
+  if (set == InstructionSet::scalar) return advance_drops_scalar;
+  return advance_drops_baseline;
+}
+
+}  // namespace tumble::batch

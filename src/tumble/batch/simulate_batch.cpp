@@ -1,0 +1,382 @@
+#include "tumble/batch/simulate_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tumble/batch/column_writer.hpp"
+#include "tumble/batch/drop_lanes.hpp"
+#include "tumble/batch/drop_measures.hpp"
+#include "tumble/batch/parallel.hpp"
+#include "tumble/drop/drop.hpp"
+#include "tumble/math/numeric.hpp"
+
+namespace tumble::batch {
+namespace {
+
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+
+struct NamedParameter {
+  const char* name;
+  std::span<const double> DropParameters::*values;
+  double drop::Parameters::*field;
+};
+
+constexpr NamedParameter k_parameters[] = {
+    {"l", &DropParameters::l, &drop::Parameters::l},    {"m", &DropParameters::m, &drop::Parameters::m},
+    {"mu", &DropParameters::mu, &drop::Parameters::mu}, {"eps", &DropParameters::eps, &drop::Parameters::eps},
+    {"dt", &DropParameters::dt, &drop::Parameters::dt}, {"delta", &DropParameters::delta, &drop::Parameters::delta},
+    {"g", &DropParameters::g, &drop::Parameters::g}};
+
+// ---- What is refused as a whole ----
+
+template <class T>
+void require_length(std::span<T> array, const char* name, std::size_t length) {
+  if (array.empty() || array.size() == length) return;
+  throw std::invalid_argument(fmt::format("{}: must have {} numbers, got {}", name, length, array.size()));
+}
+
+template <class Real>
+void require_lengths(const DropStarts<Real>& starts, const DropParameters& parameters, const BatchSettings& settings,
+                     const DropResults<Real>& results) {
+  if (starts.q0.size() % 3 != 0 || starts.q0.size() != starts.v0.size()) {
+    throw std::invalid_argument(
+        fmt::format("q0, v0: must both be N x 3, got {} and {} numbers", starts.q0.size(), starts.v0.size()));
+  }
+  const std::size_t count = starts.size();
+  for (const auto& [name, values, field] : k_parameters) {
+    const std::size_t length = (parameters.*values).size();
+    if (length > 1 && length != count) {
+      throw std::invalid_argument(fmt::format("{}: must have 1 or {} values, got {}", name, count, length));
+    }
+  }
+  const std::size_t kept = 3 * count * kept_columns(parameters.columns, settings.every);
+  require_length(results.q, "results.q", kept);
+  require_length(results.v, "results.v", kept);
+  require_length(results.status, "results.status", count);
+  require_length(results.columns, "results.columns", count);
+  require_length(results.measures, "results.measures", count);
+}
+
+void validate(const BatchSettings& settings) {
+  require_threads(settings.threads);
+  if (settings.every < 0) throw std::invalid_argument(fmt::format("every: must be >= 0, got {}", settings.every));
+  const auto& [rest_speed, x_min, x_max] = settings.measures;
+  if (!(rest_speed >= 0.0)) {
+    throw std::invalid_argument(fmt::format("rest_speed: must be >= 0, got {} m/s", rest_speed));
+  }
+  if (!(x_min <= x_max)) {
+    throw std::invalid_argument(fmt::format("x_min, x_max: must be in order, got {} m and {} m", x_min, x_max));
+  }
+  if (settings.instruction_set && !has_instruction_set(*settings.instruction_set)) {
+    throw std::invalid_argument(
+        fmt::format("instruction_set: this machine has no {}", to_string(*settings.instruction_set)));
+  }
+}
+
+bool is_common(std::span<const double> values) { return values.size() <= 1; }
+
+// The values that hold for all, and the document's in place of those that each drop has its own of.
+drop::Parameters common_parameters(const DropParameters& parameters) {
+  drop::Parameters common;
+  for (const auto& [name, values, field] : k_parameters) {
+    if ((parameters.*values).size() == 1) common.*field = (parameters.*values)[0];
+  }
+  common.columns = parameters.columns;
+  return common;
+}
+
+bool all_common(const DropParameters& parameters) {
+  return std::ranges::all_of(k_parameters, [&](const auto& p) { return is_common(parameters.*p.values); });
+}
+
+// ---- One drop ----
+
+template <class Real>
+Vector3 row(std::span<const Real> rows, std::size_t i) {
+  return {rows[3 * i], rows[3 * i + 1], rows[3 * i + 2]};
+}
+
+bool is_valid(const drop::Parameters& parameters) {
+  try {
+    validate(parameters);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+// True if no number of a step comes near the ends of the range as long as speeds do not: what `advance_drops` of Real
+// asks of parameters.
+template <class Real>
+bool is_tame(const drop::Parameters& p) {
+  const double largest = sizeof(Real) == 8 ? 0x1p200 : 0x1p20;
+  const auto is_moderate = [&](double value) { return value >= 1.0 / largest && value <= largest; };
+  return is_moderate(p.l) && is_moderate(p.m) && is_moderate(p.dt) && is_moderate(p.dt / p.m) && p.mu <= 0x1p20;
+}
+
+// ---- A block of drops ----
+
+template <class Real>
+class BlockRunner {
+ public:
+  BlockRunner(const DropStarts<Real>& starts, const DropParameters& parameters, const BatchSettings& settings,
+              const DropResults<Real>& results)
+      : starts_(starts),
+        parameters_(parameters),
+        settings_(settings),
+        results_(results),
+        advance_(advance_drops<Real>(settings.instruction_set ? *settings.instruction_set : instruction_set())),
+        bounds_{static_cast<Real>(settings.measures.rest_speed * settings.measures.rest_speed),
+                static_cast<Real>(settings.measures.x_min), static_cast<Real>(settings.measures.x_max)},
+        has_common_parameters_(all_common(parameters)),
+        common_(common_parameters(parameters)),
+        writer_(settings.every == 0 ? nullptr : results.q.data(), settings.every == 0 ? nullptr : results.v.data(),
+                kept_columns(parameters.columns, settings.every)) {
+    put_parameters_of_all();
+  }
+
+  void run(std::size_t first, std::size_t count) {
+    load(first, count);
+    const auto* const bounds = results_.measures.empty() ? nullptr : &bounds_;
+    const int num_steps = parameters_.columns - 1;
+    if (settings_.every == 0) {
+      advance_(block_, count, 0, num_steps, bounds);
+    } else {
+      writer_.begin(first, count);
+      writer_.add(block_);
+      for (int column = 0; column < num_steps;) {
+        const int steps = std::min(settings_.every, num_steps - column);
+        advance_(block_, count, column, steps, bounds);
+        column += steps;
+        if (column % settings_.every == 0) writer_.add(block_);
+      }
+      writer_.finish();
+    }
+    for (std::size_t j = 0; j < count; ++j) finish(first + j, j);
+  }
+
+ private:
+  drop::Parameters parameters_of(std::size_t i) const {
+    return has_common_parameters_ ? common_ : parameters_at(parameters_, i);
+  }
+
+  void put_parameters(std::size_t j, const drop::Parameters& p) {
+    block_.half_l[j] = static_cast<Real>(0.5 * p.l);
+    block_.inverse_m[j] = static_cast<Real>(1.0 / p.m);
+    block_.inverse_I[j] = static_cast<Real>(1.0 / moment_of_inertia(p));
+    block_.mu[j] = static_cast<Real>(p.mu);
+    block_.bounce[j] = static_cast<Real>(1.0 + p.eps);
+    block_.dt[j] = static_cast<Real>(p.dt);
+    block_.delta[j] = static_cast<Real>(p.delta);
+    block_.g[j] = static_cast<Real>(p.g);
+    block_.clear_height[j] = static_cast<Real>(p.delta + 0.7072 * p.l);
+    block_.gyration[j] = static_cast<Real>(p.l * p.l / 6.0);
+  }
+
+  void put_parameters_of_all() {
+    for (std::size_t j = 0; j < DropBlock<Real>::k_capacity; ++j) put_parameters(j, common_);
+  }
+
+  void put_state(std::size_t j, const Vector3& q, const Vector3& v) {
+    block_.x[j] = static_cast<Real>(q[0]);
+    block_.y[j] = static_cast<Real>(q[1]);
+    block_.theta[j] = static_cast<Real>(q[2]);
+    block_.vx[j] = static_cast<Real>(v[0]);
+    block_.vy[j] = static_cast<Real>(v[1]);
+    block_.omega[j] = static_cast<Real>(v[2]);
+  }
+
+  void load(std::size_t first, std::size_t count) {
+    const bool measures = !results_.measures.empty();
+    const bool common_is_tame = is_tame<Real>(common_);
+    for (std::size_t j = 0; j < count; ++j) {
+      const Vector3 q0 = row(starts_.q0, first + j), v0 = row(starts_.v0, first + j);
+      is_valid_[j] = all_finite(q0) && all_finite(v0);
+      bool tame = common_is_tame;
+      if (!has_common_parameters_) {
+        const drop::Parameters p = parameters_of(first + j);
+        is_valid_[j] = is_valid_[j] && is_valid(p);
+        tame = is_tame<Real>(p);
+        put_parameters(j, is_valid_[j] && tame ? p : drop::Parameters{});
+      }
+      block_.is_ordinary[j] = is_valid_[j] && tame ? Real(1) : Real(0);
+      if (is_valid_[j] && tame) {
+        put_state(j, q0, v0);
+      } else {
+        put_state(j, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0});
+      }
+      if (measures) note(j);
+    }
+    for (std::size_t j = count; j % k_padding != 0; ++j) put_state(j, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0});
+  }
+
+  void note(std::size_t j) {
+    const Real vx = block_.vx[j], vy = block_.vy[j], omega = block_.omega[j], x = block_.x[j];
+    const Real speed_squared = (vx * vx + vy * vy) + block_.gyration[j] * (omega * omega);
+    block_.last_contact[j] = Real(-1);
+    block_.impacts[j] = block_.max_force_time[j] = block_.was_closed[j] = Real(0);
+    block_.last_moving[j] = speed_squared > bounds_.rest_speed_squared ? Real(0) : Real(-1);
+    block_.escape[j] = x < bounds_.x_min || x > bounds_.x_max ? Real(0) : Real(-1);
+  }
+
+  // Results of drop i, which is number j of the block; columns are there already.
+  void finish(std::size_t i, std::size_t j) {
+    if (!is_valid_[j]) {
+      fill_rows(i, 0);
+      tell(i, DropStatus::invalid, 0, {});
+      if (!results_.measures.empty()) results_.measures[i] = no_measures();
+      return;
+    }
+    const std::array<Real, 6> last = {block_.x[j],  block_.y[j],  block_.theta[j],
+                                      block_.vx[j], block_.vy[j], block_.omega[j]};
+    if (block_.is_ordinary[j] == Real(0) || !std::ranges::all_of(last, [](Real x) { return std::isfinite(x); })) {
+      run_alone(i);
+      return;
+    }
+    tell(i, DropStatus::solved, parameters_.columns, last);
+    if (results_.measures.empty()) return;
+    const NotedColumns noted{block_.last_contact[j], block_.impacts[j], block_.max_force_time[j], block_.last_moving[j],
+                             block_.escape[j]};
+    results_.measures[i] = drop_measures(noted, {row(starts_.q0, i), row(starts_.v0, i)},
+                                         {{last[0], last[1], last[2]}, {last[3], last[4], last[5]}},
+                                         parameters_.columns, DropStatus::solved, parameters_of(i));
+  }
+
+  void tell(std::size_t i, DropStatus status, int columns, const std::array<Real, 6>& last) {
+    if (!results_.status.empty()) results_.status[i] = status;
+    if (!results_.columns.empty()) results_.columns[i] = columns;
+    if (settings_.every != 0 || status == DropStatus::invalid) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!results_.q.empty()) results_.q[3 * i + c] = last[c];
+      if (!results_.v.empty()) results_.v[3 * i + c] = last[3 + c];
+    }
+  }
+
+  // NaN in the kept columns of drop i from number `from` on.
+  void fill_rows(std::size_t i, std::size_t from) {
+    const std::size_t kept = kept_columns(parameters_.columns, settings_.every);
+    for (const std::span<Real> rows : {results_.q, results_.v}) {
+      for (std::size_t r = 3 * i; r < 3 * i + 3 && !rows.empty(); ++r) {
+        std::fill(rows.begin() + static_cast<std::ptrdiff_t>(r * kept + from),
+                  rows.begin() + static_cast<std::ptrdiff_t>((r + 1) * kept), static_cast<Real>(k_nan));
+      }
+    }
+  }
+
+  void put_column(std::size_t i, std::size_t kept_column, const drop::State& state) {
+    const std::size_t kept = kept_columns(parameters_.columns, settings_.every);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t place = (3 * i + c) * kept + kept_column;
+      if (!results_.q.empty()) results_.q[place] = static_cast<Real>(state.q[c]);
+      if (!results_.v.empty()) results_.v[place] = static_cast<Real>(state.v[c]);
+    }
+  }
+
+  // A drop that is not ordinary, step by step in double.
+  void run_alone(std::size_t i) {
+    const drop::Parameters p = parameters_of(i);
+    const auto every = static_cast<std::size_t>(settings_.every);
+    const drop::State start{row(starts_.q0, i), row(starts_.v0, i)};
+    drop::State state = start;
+    NotedColumns noted = note_start(start, p, settings_.measures);
+    DropStatus status = DropStatus::solved;
+    if (every != 0) put_column(i, 0, state);
+    bool was_closed = false;
+    int columns = 1;
+    for (; columns < p.columns; ++columns) {
+      const auto [next, step] = drop::step_with_record(state.q, state.v, p);
+      if (step.status != LcpStatus::solved) {
+        status = DropStatus::numerical;
+        break;
+      }
+      state = next;
+      note_column(noted, columns, state, step.z[0], was_closed, p, settings_.measures);
+      was_closed = step.z[0] > 0.0;
+      const auto column = static_cast<std::size_t>(columns);
+      if (every != 0 && column % every == 0) put_column(i, column / every, state);
+    }
+    if (every != 0) fill_rows(i, kept_columns(columns, settings_.every));
+    std::array<Real, 6> last;
+    for (std::size_t c = 0; c < 3; ++c) {
+      last[c] = static_cast<Real>(state.q[c]);
+      last[3 + c] = static_cast<Real>(state.v[c]);
+    }
+    tell(i, status, columns, last);
+    if (!results_.measures.empty()) results_.measures[i] = drop_measures(noted, start, state, columns, status, p);
+  }
+
+  const DropStarts<Real>& starts_;
+  const DropParameters& parameters_;
+  const BatchSettings& settings_;
+  const DropResults<Real>& results_;
+  AdvanceDrops<Real> advance_;
+  MeasureBounds<Real> bounds_;
+  bool has_common_parameters_;
+  drop::Parameters common_;
+  bool is_valid_[DropBlock<Real>::k_capacity];
+  DropBlock<Real> block_;
+  ColumnWriter<Real> writer_;
+};
+
+}  // namespace
+
+drop::Parameters parameters_at(const DropParameters& parameters, std::size_t i) {
+  drop::Parameters p;
+  for (const auto& [name, values, field] : k_parameters) {
+    const std::span<const double> array = parameters.*values;
+    if (!array.empty()) p.*field = array[array.size() == 1 ? 0 : i];
+  }
+  p.columns = parameters.columns;
+  return p;
+}
+
+std::size_t kept_columns(int columns, int every) {
+  return every == 0 ? 1
+                    : (static_cast<std::size_t>(columns) + static_cast<std::size_t>(every) - 1) /
+                          static_cast<std::size_t>(every);
+}
+
+std::string what_is_invalid(const DropStarts<double>& starts, const DropParameters& parameters, std::size_t i) {
+  try {
+    drop::step_with_record(row(starts.q0, i), row(starts.v0, i), parameters_at(parameters, i));
+    return {};
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+template <class Real>
+void simulate_batch(const DropStarts<Real>& starts, const DropParameters& parameters, const BatchSettings& settings,
+                    const DropResults<Real>& results) {
+  validate(settings);
+  validate(common_parameters(parameters));
+  require_lengths(starts, parameters, settings, results);
+  const std::size_t count = starts.size();
+  const auto threads = static_cast<std::size_t>(settings.threads == 0 ? num_cores() : settings.threads);
+  // Small enough for all threads to have some; of no influence on the results.
+  const std::size_t most = settings.every == 0 ? DropBlock<Real>::k_capacity : ColumnWriter<Real>::k_most_drops;
+  const std::size_t share = (count / (4 * threads) + k_padding) / k_padding * k_padding;
+  const std::size_t block_size = std::min(most, share);
+  const std::size_t num_blocks = (count + block_size - 1) / block_size;
+  const std::size_t num_runners = std::min(threads, std::max<std::size_t>(num_blocks, 1));
+  std::vector<std::optional<BlockRunner<Real>>> runners(num_runners);
+  const auto run_block = [&](std::size_t block, std::size_t worker) {
+    if (!runners[worker]) runners[worker].emplace(starts, parameters, settings, results);
+    const std::size_t first = block * block_size;
+    runners[worker]->run(first, std::min(block_size, count - first));
+  };
+  std::function<void(std::size_t)> watch;
+  if (settings.watch) watch = [&](std::size_t done) { settings.watch(std::min(count, done * block_size)); };
+  for_each_chunk(num_blocks, static_cast<int>(num_runners), run_block, watch);
+}
+
+template void simulate_batch(const DropStarts<double>&, const DropParameters&, const BatchSettings&,
+                             const DropResults<double>&);
+template void simulate_batch(const DropStarts<float>&, const DropParameters&, const BatchSettings&,
+                             const DropResults<float>&);
+
+}  // namespace tumble::batch
