@@ -1,5 +1,6 @@
 // The program `tumble`. CLI11 is included here and nowhere else: it takes longer to compile than the rest
 // together.
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include <fmt/ranges.h>
 
 #include "tumble/lcp/methods.hpp"
+#include "tumble/math/numeric.hpp"
 #include "tumble/output/file.hpp"
 
 namespace tumble::cli {
@@ -227,11 +229,12 @@ void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& comma
 void parse_shard(const std::string& word, SweepOptions& options) {
   const std::size_t slash = word.find('/');
   if (slash != std::string::npos) {
-    const int index = whole_number("--shard", word.substr(0, slash));
-    const int count = whole_number("--shard", word.substr(slash + 1));
-    if (index >= 1 && count >= index) {
-      options.shard = static_cast<std::uint64_t>(index);
-      options.shards = static_cast<std::uint64_t>(count);
+    const auto index = parse_number(word.substr(0, slash));
+    const auto count = parse_number(word.substr(slash + 1));
+    const auto is_count = [](const auto& value) { return value && *value >= 1.0 && *value <= 1e6 && std::floor(*value) == *value; };
+    if (is_count(index) && is_count(count) && *index <= *count) {
+      options.shard = static_cast<std::uint64_t>(*index);
+      options.shards = static_cast<std::uint64_t>(*count);
       return;
     }
   }

@@ -24,8 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* k_columns_name = "columns.npz";
-
 // Where chunks are kept, and where the results go.
 struct Targets {
   fs::path folder;
@@ -125,7 +123,7 @@ int run_sweep(const SweepOptions& options) {
   }
   if (options.shards > 1) return report_shard(options, report, folder.path());
   if (targets.file.empty()) {
-    finish({&folder, 1}, folder.path() / k_columns_name, true, options.threads, options.report);
+    finish({&folder, 1}, folder.path() / sweep::k_columns_name, true, options.threads, options.report);
   } else {
     finish({&folder, 1}, targets.file, options.overwrite, options.threads, options.report);
     folder.remove();
@@ -143,7 +141,7 @@ int merge_sweep(const MergeOptions& options) {
   }
   const fs::path target = options.output.empty() ? fs::path(options.folders[0]) : fs::path(options.output);
   fs::create_directories(target);
-  finish(folders, target / k_columns_name, true, options.threads, options.report);
+  finish(folders, target / sweep::k_columns_name, true, options.threads, options.report);
   return k_done;
 }
 

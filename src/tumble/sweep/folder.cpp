@@ -1,5 +1,6 @@
 #include "tumble/sweep/folder.hpp"
 
+#include <array>
 #include <stdexcept>
 #include <system_error>
 
@@ -14,6 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_spec_name = "spec.toml";
 constexpr const char* k_chunks_name = "chunks";
+constexpr std::array<const char*, 1> k_result_names = {k_columns_name};
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view why) {
   throw std::invalid_argument(fmt::format("{}: {}", output::path_text(path), why));
@@ -57,8 +59,8 @@ Folder Folder::begin(const fs::path& path, const Spec& spec, bool overwrite) {
   Folder folder(path, spec);
   if (fingerprint(read_spec(path)) != folder.fingerprint_) {
     if (!overwrite) refuse(path, "holds another sweep: its spec.toml gives other results. --force empties the folder");
-    folder.remove();
-    return begin(path, spec, false);
+    folder.remove_results();
+    output::write_file_atomically(file, spec.text, true);
   }
   make_folder(path / k_chunks_name);
   return folder;
@@ -73,8 +75,13 @@ fs::path Folder::chunk_path(std::uint64_t chunk) const {
   return path_ / k_chunks_name / fmt::format("{:06}.chunk", chunk);
 }
 
-void Folder::remove() const {
+void Folder::remove_results() const {
   fs::remove_all(path_ / k_chunks_name);
+  for (const char* name : k_result_names) fs::remove(path_ / name);
+}
+
+void Folder::remove() const {
+  remove_results();
   fs::remove(path_ / k_spec_name);
   std::error_code is_not_empty;
   fs::remove(path_, is_not_empty);

@@ -9,6 +9,9 @@
 
 namespace tumble::sweep {
 
+// What the folder holds in the end.
+inline constexpr const char* k_columns_name = "columns.npz";
+
 class Folder {
  public:
   // Makes the folder, or goes on with it if its spec gives the same results. Throws std::invalid_argument if it holds
@@ -22,6 +25,9 @@ class Folder {
   std::uint64_t spec_fingerprint() const { return fingerprint_; }
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path chunk_path(std::uint64_t chunk) const;
+
+  // Removes chunks and results.
+  void remove_results() const;
 
   // Removes what `begin` and chunks have made of it, and itself if nothing else is in it.
   void remove() const;

@@ -47,7 +47,7 @@ struct Spec {
   std::uint64_t samples = 1;    // instances of each cell
   std::uint64_t chunk = 65536;  // instances computed and stored at once
   Keep keep = Keep::columns;
-  std::vector<Quantity> quantities;  // all of the model, those of the text first, in its order
+  std::vector<Quantity> quantities;  // all of the model; those swept first, in the order of the text
   int columns = 150;                 // of each run, the start included
   batch::MeasureSettings measures{};
   std::string text{};  // that it was read from

@@ -87,8 +87,10 @@ Source read_source(const Value& value, const Range& range) {
   return LogUniform{low, high};
 }
 
+bool is_constant(const Quantity& quantity) { return std::holds_alternative<Constant>(quantity.source); }
+
 bool is_drawn(const Quantity& quantity) {
-  return !std::holds_alternative<Constant>(quantity.source) && !std::holds_alternative<Grid>(quantity.source);
+  return !is_constant(quantity) && !std::holds_alternative<Grid>(quantity.source);
 }
 
 class SpecReader {
@@ -103,6 +105,10 @@ class SpecReader {
     }
     add_usual(k_start, 0);
     add_usual(k_parameters, k_start.size());
+    // Where constants stand in the text makes no difference.
+    std::stable_sort(spec_.quantities.begin(), spec_.quantities.end(), [](const Quantity& a, const Quantity& b) {
+      return is_constant(a) != is_constant(b) ? is_constant(b) : is_constant(a) && a.draw < b.draw;
+    });
     if (const auto measures = root.find("measures")) read_measures(*measures);
     read_keep(root);
     read_counts(root);
