@@ -231,7 +231,9 @@ void parse_shard(const std::string& word, SweepOptions& options) {
   if (slash != std::string::npos) {
     const auto index = parse_number(word.substr(0, slash));
     const auto count = parse_number(word.substr(slash + 1));
-    const auto is_count = [](const auto& value) { return value && *value >= 1.0 && *value <= 1e6 && std::floor(*value) == *value; };
+    const auto is_count = [](const auto& value) {
+      return value && *value >= 1.0 && *value <= 1e6 && std::floor(*value) == *value;
+    };
     if (is_count(index) && is_count(count) && *index <= *count) {
       options.shard = static_cast<std::uint64_t>(*index);
       options.shards = static_cast<std::uint64_t>(*count);
@@ -262,8 +264,9 @@ void add_merge(CLI::App& sweep, MergeOptions& options, std::function<int()>& com
 
 void add_sweep(CLI::App& program, SweepOptions& options, MergeOptions& merge, std::function<int()>& command) {
   CLI::App& app = *program.add_subcommand("sweep", "Drop many squares: ranges, grids and distributions of starts");
-  CLI::Option* spec = app.add_option("spec", options.input, "What is swept, see docs/sweep.md; '-' reads standard input")
-                          ->type_name("FILE");
+  CLI::Option* spec =
+      app.add_option("spec", options.input, "What is swept, see docs/sweep.md; '-' reads standard input")
+          ->type_name("FILE");
   add_sweep_options(app, options.output, options.overwrite, options.threads, "SPEC.sweep");
   app.add_option_function<std::string>(
          "--shard", [&options](const std::string& word) { parse_shard(word, options); },

@@ -50,12 +50,13 @@ std::string share(std::uint64_t part, std::uint64_t whole) {
 
 std::string counts_text(const sweep::Counts& counts) {
   const auto [solved, numerical, invalid] = counts.by_status;
-  std::string text = fmt::format("{} instances: {} solved, {} numerical, {} invalid\n", counts.instances, solved,
-                                 numerical, invalid);
+  std::string text =
+      fmt::format("{} instances: {} solved, {} numerical, {} invalid\n", counts.instances, solved, numerical, invalid);
   if (solved == 0) return text;
   text += "side of the square that is up at the end:";
   const char* names[] = {"+y", "+x", "-y", "-x"};
-  for (std::size_t k = 0; k < 4; ++k) text += fmt::format("{} {} {}", k ? "," : "", names[k], share(counts.by_face[k], solved));
+  for (std::size_t k = 0; k < 4; ++k)
+    text += fmt::format("{} {} {}", k ? "," : "", names[k], share(counts.by_face[k], solved));
   return text + "\n";
 }
 
@@ -98,12 +99,14 @@ void print_faults(const std::vector<std::string>& faults) {
 int report_shard(const SweepOptions& options, const sweep::RunReport& report, const fs::path& folder) {
   if (options.report.quiet) return k_done;
   if (options.report.json) {
-    const Json json = {{"shard", options.shard}, {"shards", options.shards}, {"chunks", report.chunks}, {"folder", folder.string()}};
+    const Json json = {
+        {"shard", options.shard}, {"shards", options.shards}, {"chunks", report.chunks}, {"folder", folder.string()}};
     fmt::print("{}", to_text(json));
     return k_done;
   }
-  fmt::print("shard {} of {}: all {} chunks are in {}; `tumble sweep merge` makes the results when all shards are done\n",
-             options.shard, options.shards, report.chunks, output::path_text(folder));
+  fmt::print(
+      "shard {} of {}: all {} chunks are in {}; `tumble sweep merge` makes the results when all shards are done\n",
+      options.shard, options.shards, report.chunks, output::path_text(folder));
   return k_done;
 }
 
@@ -118,8 +121,9 @@ int run_sweep(const SweepOptions& options) {
   const sweep::RunReport report = compute(folder, options);
   print_faults(report.faults);
   if (report.is_interrupted) {
-    return report_failure(fmt::format("interrupted; the same call goes on with what is in {}", output::path_text(folder.path())),
-                          k_interrupted);
+    return report_failure(
+        fmt::format("interrupted; the same call goes on with what is in {}", output::path_text(folder.path())),
+        k_interrupted);
   }
   if (options.shards > 1) return report_shard(options, report, folder.path());
   if (targets.file.empty()) {

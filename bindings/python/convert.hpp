@@ -44,6 +44,7 @@ std::vector<double> as_vector(const Array& array);
 py::array_t<double> to_numpy(std::span<const double> values);
 py::array_t<double> to_numpy(std::span<const double> values, py::ssize_t rows, py::ssize_t columns);
 
+void bind_batch(py::module_& module);
 void bind_lcp(py::module_& module);
 void bind_contacts(py::module_& module);
 void bind_drop(py::module_& module);

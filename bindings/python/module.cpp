@@ -162,6 +162,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = TUMBLE_VERSION;
   tumble::python::bind_lcp(module);
   tumble::python::bind_contacts(module);
+  tumble::python::bind_batch(module);
   tumble::python::bind_drop(module);
   tumble::python::bind_shape(module);
   tumble::python::bind_scene(module);

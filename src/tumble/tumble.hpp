@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tumble/batch/parallel.hpp"
+#include "tumble/batch/rollout.hpp"
 #include "tumble/batch/simulate_batch.hpp"
 #include "tumble/contact/island_solver.hpp"
 #include "tumble/contact/restitution.hpp"

@@ -37,7 +37,7 @@ region = [-1, 1]
 """
 NUM_CHUNKS = 7
 # Takes seconds on any machine, in many chunks.
-LONG = SPEC.replace("samples = 200", "samples = 20000").replace("chunk = 300", "chunk = 2000").replace("99", "1500")
+LONG = SPEC.replace("samples = 200", "samples = 6000").replace("chunk = 300", "chunk = 2000").replace("99", "1500")
 
 
 @pytest.fixture

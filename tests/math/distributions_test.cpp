@@ -45,7 +45,8 @@ double kolmogorov(std::vector<double> values, Function distribution) {
   double largest = 0.0;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const double f = distribution(values[k]);
-    largest = std::max({largest, std::abs(static_cast<double>(k) / n - f), std::abs(static_cast<double>(k + 1) / n - f)});
+    largest =
+        std::max({largest, std::abs(static_cast<double>(k) / n - f), std::abs(static_cast<double>(k + 1) / n - f)});
   }
   return std::sqrt(n) * largest;
 }

@@ -245,7 +245,7 @@ def test_runs_side_by_side_are_those_one_after_the_other() -> None:
 
 
 PROGRESS = """
-import tumble, tumble._simulate as module
+import tumble, tumble._progress as module
 module._SECONDS_BEFORE_PROGRESS = module._SECONDS_BETWEEN_LINES = 0.0
 tumble.simulate(tumble.Scene.load({scene!r}), duration=200, progress=True, contacts=False)
 """

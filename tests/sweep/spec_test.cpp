@@ -39,8 +39,9 @@ TEST(SweepSpec, ErrorsNameFieldValueRangeAndPlace) {
       {k_head + "start.z = 1", "s.toml:2:7: start.'z': unknown key; did you mean 'x'?"},
       {k_head + "parameters.muu = 1", "s.toml:2:12: parameters.'muu': unknown key; did you mean 'mu'?"},
       {k_head + "sample = 3", "s.toml:2:1: 'sample': unknown key; did you mean 'samples'?"},
-      {k_head + "[start]\nx = { unifrom = [0, 1] }", "s.toml:3:7: start.x.'unifrom': unknown key; did you mean "
-                                                      "'uniform'?"},
+      {k_head + "[start]\nx = { unifrom = [0, 1] }",
+       "s.toml:3:7: start.x.'unifrom': unknown key; did you mean "
+       "'uniform'?"},
       {k_head + "parameters.eps = 1.5", "s.toml:2:18: parameters.eps: must be in [0, 1], got 1.5"},
       {k_head + "parameters.eps = { uniform = [0, 1.5] }",
        "s.toml:2:34: parameters.eps.uniform[1]: must be in [0, 1], got 1.5"},
@@ -58,8 +59,9 @@ TEST(SweepSpec, ErrorsNameFieldValueRangeAndPlace) {
        "s.toml:2:26: start.x.normal[1]: a standard deviation must be >= 0, got -1"},
       {k_head + "start.x = { log_uniform = [0, 1] }",
        "s.toml:2:27: start.x.log_uniform: must have a low end > 0, got 0"},
-      {k_head + "samples = 5", "s.toml:2:11: samples: must be 1 where nothing is drawn (uniform, normal, "
-                               "log_uniform), as all would be the same; got 5"},
+      {k_head + "samples = 5",
+       "s.toml:2:11: samples: must be 1 where nothing is drawn (uniform, normal, "
+       "log_uniform), as all would be the same; got 5"},
       {k_head + "keep = 'all'", "s.toml:2:8: keep: must be 'columns' or 'statistics', got 'all'"},
       {k_head + "parameters.steps = 0", "s.toml:2:20: parameters.steps: must be in [1, 9999999], got 0"},
       {k_head + "chunk = 1\nsamples = 2000000\nstart.x = { uniform = [0, 1] }",

@@ -17,7 +17,7 @@ Modules
 -------
 drop
     The document's model: a square falls on the ground (`get_contacts`, `form_lcp`, `solve_LCP`, `step`, `simulate`,
-    `render`).
+    `render`), one drop at a time or many at once (`simulate_batch`).
 lcp
     Solvers for linear complementarity problems of any origin.
 course
@@ -27,6 +27,7 @@ grade
 """
 
 from tumble import drop, lcp
+from tumble._batch import simulate_batch
 from tumble._bodies import Body, ContactLaw, Knot, Material, Part, Wrench
 from tumble._core import NoSolution, Shape, __version__
 from tumble._scene import Scene
@@ -74,6 +75,7 @@ __all__ = [
     "regular_polygon",
     "segment",
     "simulate",
+    "simulate_batch",
     "square",
     "terrain",
 ]

@@ -55,6 +55,25 @@ def simulate(
 def simulate_with_record(q0: ArrayLike, v0: ArrayLike, params: Parameters) -> dict[str, Any]: ...
 def corner_positions(q: ArrayLike, params: Parameters) -> NDArray[np.float64]: ...
 
+def simulate_batch(
+    q0: ArrayLike,
+    v0: ArrayLike,
+    params: dict[str, Any],
+    every: int,
+    measures: bool,
+    rest_speed: float,
+    x_min: float,
+    x_max: float,
+    threads: int,
+    instruction_set: str | None,
+    progress: Any,
+) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.uint8], NDArray[np.int32], NDArray[Any] | None]: ...
+
+simulate_batch_single = simulate_batch
+
+def what_is_invalid(q0: ArrayLike, v0: ArrayLike, params: dict[str, Any], i: int) -> str: ...
+def instruction_set() -> str: ...
+
 STATUSES: tuple[str, ...]
 RUNGS: tuple[str, ...]
 MODES: tuple[str, ...]

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import sys
-import time
 import warnings
 
 from tumble import _core
+from tumble._progress import ProgressLine
 from tumble._scene import Scene, require_scene
 from tumble._trajectory import Trajectory
 
 _SECONDS_BETWEEN_LOOKS = 0.05  # for Ctrl-C and the progress line
-_SECONDS_BEFORE_PROGRESS = 1.0  # what takes less needs none
-_SECONDS_BETWEEN_LINES = 0.2
 
 
 class SimulationWarning(UserWarning):
@@ -90,12 +87,12 @@ def simulate(
     """
     require_scene(scene)
     run = _core.Run(scene._core, step_size, duration, sample_every, solver, num_sweeps, contacts)
-    line = _ProgressLine(run) if progress and sys.stderr.isatty() else None
+    line = ProgressLine() if progress else None
     try:
         while not run.is_done:
             run.run_for(_SECONDS_BETWEEN_LOOKS)
             if line is not None:
-                line.show()
+                line.show(run.step / run.num_steps, f"{run.time:.4g} s")
     except KeyboardInterrupt:
         raise Interrupted(Trajectory(run.finish(), contacts)) from None
     finally:
@@ -125,27 +122,3 @@ def _remarks(trajectory: Trajectory) -> list[str]:
             f"{trajectory.first_creation:g} s"
         )
     return texts
-
-
-class _ProgressLine:
-    """One line on the terminal, written over and over."""
-
-    def __init__(self, run: _core.Run) -> None:
-        self._run = run
-        self._start = time.monotonic()
-        self._shown = 0.0
-
-    def show(self) -> None:
-        passed = time.monotonic() - self._start
-        if passed < _SECONDS_BEFORE_PROGRESS or passed - self._shown < _SECONDS_BETWEEN_LINES or self._run.step == 0:
-            return
-        self._shown = passed
-        share = self._run.step / self._run.num_steps
-        left = passed / share - passed
-        sys.stderr.write(f"\r\x1b[K{100 * share:5.1f} %  {self._run.time:.4g} s  {left:.0f} s left")
-        sys.stderr.flush()
-
-    def clear(self) -> None:
-        if self._shown > 0.0:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()

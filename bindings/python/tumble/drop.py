@@ -23,12 +23,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tumble import _core
+from tumble._batch import Batch, simulate_batch
 from tumble._core import NoSolution, Parameters
 from tumble._files import as_target, output_module
 from tumble._render import render
 from tumble._view import Page, view
 
 __all__ = [
+    "Batch",
     "NoSolution",
     "Parameters",
     "Record",
@@ -38,6 +40,7 @@ __all__ = [
     "record",
     "render",
     "simulate",
+    "simulate_batch",
     "solve_LCP",
     "step",
 ]

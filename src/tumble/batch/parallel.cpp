@@ -88,7 +88,10 @@ class Watch {
 
 }  // namespace
 
-int num_cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+int num_cores() {
+  static const int count = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  // reads files
+  return count;
+}
 
 void require_threads(int threads) {
   if (threads < 0 || threads > 1024) {

@@ -90,7 +90,8 @@ drop::Parameters common_parameters(const DropParameters& parameters) {
 }
 
 bool all_common(const DropParameters& parameters) {
-  return std::ranges::all_of(k_parameters, [&](const auto& p) { return is_common(parameters.*p.values); });
+  const auto is_common_in = [&](const NamedParameter& p) { return is_common(parameters.*p.values); };
+  return std::all_of(std::begin(k_parameters), std::end(k_parameters), is_common_in);
 }
 
 // ---- One drop ----
@@ -178,7 +179,11 @@ class BlockRunner {
   }
 
   void put_parameters_of_all() {
-    for (std::size_t j = 0; j < DropBlock<Real>::k_capacity; ++j) put_parameters(j, common_);
+    put_parameters(0, common_);
+    for (Real* const array : {block_.half_l, block_.inverse_m, block_.inverse_I, block_.mu, block_.bounce, block_.dt,
+                              block_.delta, block_.g, block_.clear_height, block_.gyration}) {
+      std::fill(array + 1, array + DropBlock<Real>::k_capacity, array[0]);
+    }
   }
 
   void put_state(std::size_t j, const Vector3& q, const Vector3& v) {
@@ -233,7 +238,7 @@ class BlockRunner {
     }
     const std::array<Real, 6> last = {block_.x[j],  block_.y[j],  block_.theta[j],
                                       block_.vx[j], block_.vy[j], block_.omega[j]};
-    if (block_.is_ordinary[j] == Real(0) || !std::ranges::all_of(last, [](Real x) { return std::isfinite(x); })) {
+    if (block_.is_ordinary[j] == Real(0) || !all_finite(last)) {
       run_alone(i);
       return;
     }
@@ -322,6 +327,17 @@ class BlockRunner {
   ColumnWriter<Real> writer_;
 };
 
+// Small enough for all threads to have some, and for a watch to be called now and then: about 30 ms of steps. Of no
+// influence on the results.
+template <class Real>
+std::size_t drops_of_a_block(std::size_t count, int columns, int every, std::size_t threads) {
+  constexpr std::size_t k_most_steps = 5'000'000;
+  const auto padded = [](std::size_t drops) { return drops / k_padding * k_padding; };
+  const std::size_t most = every == 0 ? DropBlock<Real>::k_capacity : ColumnWriter<Real>::k_most_drops;
+  const std::size_t share = padded(count / (4 * threads)) + k_padding;
+  return std::min({most, share, padded(k_most_steps / static_cast<std::size_t>(columns)) + k_padding});
+}
+
 }  // namespace
 
 drop::Parameters parameters_at(const DropParameters& parameters, std::size_t i) {
@@ -357,10 +373,7 @@ void simulate_batch(const DropStarts<Real>& starts, const DropParameters& parame
   require_lengths(starts, parameters, settings, results);
   const std::size_t count = starts.size();
   const auto threads = static_cast<std::size_t>(settings.threads == 0 ? num_cores() : settings.threads);
-  // Small enough for all threads to have some; of no influence on the results.
-  const std::size_t most = settings.every == 0 ? DropBlock<Real>::k_capacity : ColumnWriter<Real>::k_most_drops;
-  const std::size_t share = (count / (4 * threads) + k_padding) / k_padding * k_padding;
-  const std::size_t block_size = std::min(most, share);
+  const std::size_t block_size = drops_of_a_block<Real>(count, parameters.columns, settings.every, threads);
   const std::size_t num_blocks = (count + block_size - 1) / block_size;
   const std::size_t num_runners = std::min(threads, std::max<std::size_t>(num_blocks, 1));
   std::vector<std::optional<BlockRunner<Real>>> runners(num_runners);

@@ -14,9 +14,7 @@ namespace {
 constexpr double k_ln2_high = 0x1.62e42feep-1;
 constexpr double k_ln2_low = 0x1.a39ef35793c76p-33;
 
-double power_of_two(int exponent) {
-  return bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
-}
+double power_of_two(int exponent) { return bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
 
 }  // namespace
 
@@ -34,9 +32,10 @@ double exp(double x) {
   const double low = k * k_ln2_low;
   const double r = high - low;
   const double r2 = r * r;
-  const double even = r2 * (0x1.555555555553ep-3 +
-                            r2 * (-0x1.6c16c16bebd93p-9 +
-                                  r2 * (0x1.1566aaf25de2cp-14 + r2 * (-0x1.bbd41c5d26bf1p-20 + r2 * 0x1.6376972bea4dp-25))));
+  const double even =
+      r2 * (0x1.555555555553ep-3 +
+            r2 * (-0x1.6c16c16bebd93p-9 +
+                  r2 * (0x1.1566aaf25de2cp-14 + r2 * (-0x1.bbd41c5d26bf1p-20 + r2 * 0x1.6376972bea4dp-25))));
   const double c = r - even;
   const double e = 1.0 - ((low - (r * c) / (2.0 - c)) - high);
   // In two factors, as 2^k itself may be out of range.
@@ -69,8 +68,8 @@ double log(double x) {
   const double s2 = s * s;
   const double s4 = s2 * s2;
   const double odd = s4 * (0x1.999999997fa04p-2 + s4 * (0x1.c71c51d8e78afp-3 + s4 * 0x1.39a09d078c69fp-3));
-  const double even =
-      s2 * (0x1.5555555555593p-1 + s4 * (0x1.2492494229359p-2 + s4 * (0x1.7466496cb03dep-3 + s4 * 0x1.2f112df3e5244p-3)));
+  const double even = s2 * (0x1.5555555555593p-1 +
+                            s4 * (0x1.2492494229359p-2 + s4 * (0x1.7466496cb03dep-3 + s4 * 0x1.2f112df3e5244p-3)));
   const double half_f2 = 0.5 * f * f;
   return k * k_ln2_high - ((half_f2 - (s * (half_f2 + (odd + even)) + k * k_ln2_low)) - f);
 }

@@ -15,7 +15,8 @@ inline std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter,
     const Uint128 product_0 = static_cast<Uint128>(0xd2e7470ee14c6c93u) * counter[0];
     const Uint128 product_1 = static_cast<Uint128>(0xca5a826395121157u) * counter[2];
     counter = {static_cast<std::uint64_t>(product_1 >> 64) ^ counter[1] ^ key[0], static_cast<std::uint64_t>(product_1),
-               static_cast<std::uint64_t>(product_0 >> 64) ^ counter[3] ^ key[1], static_cast<std::uint64_t>(product_0)};
+               static_cast<std::uint64_t>(product_0 >> 64) ^ counter[3] ^ key[1],
+               static_cast<std::uint64_t>(product_0)};
     key[0] += 0x9e3779b97f4a7c15u;
     key[1] += 0xbb67ae8584caa73bu;
   }

@@ -127,7 +127,8 @@ std::optional<std::string> fault_of_chunk_file(const std::filesystem::path& path
                                                std::size_t num_parts) {
   try {
     Reader reader(path, id);
-    if (reader.num_parts() != num_parts) reader.fail(fmt::format("has {} parts, not {}", reader.num_parts(), num_parts));
+    if (reader.num_parts() != num_parts)
+      reader.fail(fmt::format("has {} parts, not {}", reader.num_parts(), num_parts));
     for (std::size_t k = 0; k < num_parts; ++k) static_cast<void>(reader.part(k));
   } catch (const std::runtime_error& error) {
     return error.what();

@@ -83,10 +83,9 @@ Chunks::Chunks(std::span<const Folder> folders, int threads)
     missing.push_back(chunk);
   }
   if (missing.empty()) return;
-  throw std::runtime_error(fmt::format("{}: the sweep is not finished: of {} chunks, {} missing: {}",
-                                       output::path_text(folders[0].path()), paths_.size(),
-                                       missing.size() == 1 ? "1 is" : fmt::format("{} are", missing.size()),
-                                       list_of(missing)));
+  throw std::runtime_error(fmt::format(
+      "{}: the sweep is not finished: of {} chunks, {} missing: {}", output::path_text(folders[0].path()),
+      paths_.size(), missing.size() == 1 ? "1 is" : fmt::format("{} are", missing.size()), list_of(missing)));
 }
 
 std::string Chunks::read(std::uint64_t chunk, std::size_t part) const {

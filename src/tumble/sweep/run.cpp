@@ -62,8 +62,10 @@ RunReport run_sweep(const Folder& folder, const RunSettings& settings) {
     std::vector<std::uint64_t> missing;
     std::atomic<std::uint64_t> done = 0;
     for (std::size_t k = 0; k < chunks.size(); ++k) {
-      if (found[k] != Found::good) missing.push_back(chunks[k]);
-      else done += slice_of_chunk(folder.spec(), chunks[k]).count;
+      if (found[k] != Found::good)
+        missing.push_back(chunks[k]);
+      else
+        done += slice_of_chunk(folder.spec(), chunks[k]).count;
     }
     batch::for_each_chunk(
         missing.size(), settings.threads,

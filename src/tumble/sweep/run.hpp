@@ -18,16 +18,16 @@ struct Shard {
 
 struct RunSettings {
   Shard shard{};
-  int threads = 0;                          // 0: one for each core
-  std::function<bool()> is_interrupted{};   // asked often, from all threads; once it is true the run ends
+  int threads = 0;                         // 0: one for each core
+  std::function<bool()> is_interrupted{};  // asked often, from all threads; once it is true the run ends
   std::function<void(std::uint64_t instances)> progress{};  // called now and then from the calling thread
 };
 
 struct RunReport {
-  std::uint64_t chunks = 0;        // of the shard
-  std::uint64_t found = 0;         // of these, complete from an earlier run
-  std::vector<std::string> faults; // why files of chunks were computed again, "path: reason"
-  bool is_interrupted = false;     // chunks are missing then
+  std::uint64_t chunks = 0;         // of the shard
+  std::uint64_t found = 0;          // of these, complete from an earlier run
+  std::vector<std::string> faults;  // why files of chunks were computed again, "path: reason"
+  bool is_interrupted = false;      // chunks are missing then
 };
 
 // Each chunk that is finished stays, whatever comes then; the folder is the same for any number of threads. Throws

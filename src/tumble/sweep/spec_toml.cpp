@@ -69,8 +69,9 @@ Source read_source(const Value& value, const Range& range) {
   value.allow_keys({"range", "list", "uniform", "normal", "log_uniform"});
   const auto entries = value.entries();
   if (entries.size() != 1) {
-    value.refuse_with("must be a number or one of range, list, uniform, normal and log_uniform, like "
-                      "{ uniform = [0, 1] }");
+    value.refuse_with(
+        "must be a number or one of range, list, uniform, normal and log_uniform, like "
+        "{ uniform = [0, 1] }");
   }
   const auto& [key, entry] = entries[0];
   if (key == "range") return read_range(entry, range);

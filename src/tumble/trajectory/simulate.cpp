@@ -53,19 +53,47 @@ void validate(const SimulateSettings& settings) {
   validate(settings.step);
 }
 
-Simulation::Simulation(const Scene& scene, const SimulateSettings& settings) : settings_(settings) {
+RunSettings run_settings(const Scene& scene, const SimulateSettings& settings) {
   validate(settings);
-  trajectory_.scene = scene;
-  workspace_ = std::make_unique<StepWorkspace>(trajectory_.scene);
-  trajectory_.step_size = settings.step_size > 0.0 ? settings.step_size : scene.step_size;
+  const double step_size = settings.step_size > 0.0 ? settings.step_size : scene.step_size;
   const double duration = settings.duration > 0.0 ? settings.duration : scene.duration;
-  const double steps = duration / trajectory_.step_size;
+  const double steps = duration / step_size;
   if (!(steps <= k_max_steps)) {
-    throw std::invalid_argument(fmt::format("duration: must be at most {:g} steps of {} s, got {} s", k_max_steps,
-                                            trajectory_.step_size, duration));
+    throw std::invalid_argument(
+        fmt::format("duration: must be at most {:g} steps of {} s, got {} s", k_max_steps, step_size, duration));
   }
   // Up to the end asked for, or past it by less than a step; a last step of nothing but round-off is none.
-  num_steps_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(steps * (1.0 - 1e-12))));
+  const auto num_steps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(steps * (1.0 - 1e-12))));
+  return {step_size, num_steps, settings.step};
+}
+
+void advance(const Scene& scene, const RunSettings& settings, StepWorkspace& workspace, State& state,
+             StepReport& report, RunSummary& summary) {
+  const LcpStatus status = time_step(scene, settings.step_size, settings.step, state, workspace, &report);
+  ++summary.num_steps;
+  state.time = static_cast<double>(summary.num_steps) * settings.step_size;
+  summary.residual = std::max(summary.residual, report.residual);
+  const bool is_close = status == LcpStatus::iteration_limit || status == LcpStatus::numerical;
+  if (is_close && report.residual <= k_largest_residual_to_go_on) {
+    if (summary.num_inexact_steps == 0) summary.first_inexact = state.time;
+    ++summary.num_inexact_steps;
+  } else {
+    summary.status = status;
+  }
+  const double created = report.energy.created;
+  if (created > 0.0) {
+    if (summary.num_creating_steps == 0) summary.first_creation = state.time;
+    ++summary.num_creating_steps;
+    summary.created_energy += created;
+  }
+  summary.is_complete = summary.num_steps == settings.num_steps && summary.status == LcpStatus::solved;
+}
+
+Simulation::Simulation(const Scene& scene, const SimulateSettings& settings) : settings_(settings) {
+  trajectory_.scene = scene;
+  workspace_ = std::make_unique<StepWorkspace>(trajectory_.scene);
+  run_ = run_settings(trajectory_.scene, settings);
+  trajectory_.step_size = run_.step_size;
   state_ = initial_state(trajectory_.scene);
   since_sample_ = energies(trajectory_.scene, state_);
   sample();
@@ -80,35 +108,16 @@ void Simulation::sample() {
 
 void Simulation::advance() {
   if (is_done()) return;
-  const LcpStatus status =
-      time_step(trajectory_.scene, trajectory_.step_size, settings_.step, state_, *workspace_, &report_);
-  ++step_;
-  state_.time = static_cast<double>(step_) * trajectory_.step_size;
-  trajectory_.num_steps = step_;
-  trajectory_.residual = std::max(trajectory_.residual, report_.residual);
-  const bool is_close = status == LcpStatus::iteration_limit || status == LcpStatus::numerical;
-  if (is_close && report_.residual <= k_largest_residual_to_go_on) {
-    if (trajectory_.num_inexact_steps == 0) trajectory_.first_inexact = state_.time;
-    ++trajectory_.num_inexact_steps;
-  } else {
-    trajectory_.status = status;
-  }
-  const EnergyLedger& energy = report_.energy;
-  add_step(since_sample_, energy);
-  if (energy.created > 0.0) {
-    if (trajectory_.num_creating_steps == 0) trajectory_.first_creation = state_.time;
-    ++trajectory_.num_creating_steps;
-    trajectory_.created_energy += energy.created;
-  }
+  tumble::advance(trajectory_.scene, run_, *workspace_, state_, report_, trajectory_);
+  add_step(since_sample_, report_.energy);
   if (settings_.keeps_contacts) {
-    StepContacts at_work{step_, {}};
+    StepContacts at_work{step(), {}};
     for (const ContactRecord& record : report_.contacts) {
       if (record.mode != ContactMode::open) at_work.contacts.push_back(record);
     }
     if (!at_work.contacts.empty()) trajectory_.contacts.push_back(std::move(at_work));
   }
-  trajectory_.is_complete = step_ == num_steps_ && trajectory_.status == LcpStatus::solved;
-  if (is_done() || step_ % settings_.sample_every == 0) sample();
+  if (is_done() || step() % settings_.sample_every == 0) sample();
 }
 
 Trajectory Simulation::finish() {

@@ -22,18 +22,37 @@ struct SimulateSettings {
 // Throws std::invalid_argument, naming the field: what is negative, not finite, or more than 10^9 steps.
 void validate(const SimulateSettings& settings);
 
+// Of a run whose scene is known.
+struct RunSettings {
+  double step_size = 0.0;  // [s]
+  std::int64_t num_steps = 0;
+  StepSettings step{};
+};
+
+// With the scene's step size and duration where the settings have none. Throws std::invalid_argument as `validate`.
+RunSettings run_settings(const Scene& scene, const SimulateSettings& settings);
+
+inline bool is_done(const RunSettings& settings, const RunSummary& summary) {
+  return summary.num_steps == settings.num_steps || summary.status != LcpStatus::solved;
+}
+
+// One step of a run that is not done, and what it adds to the summary. The memory may have served other runs of the
+// scene; state and summary are those of this one, first `initial_state(scene)` and {}.
+void advance(const Scene& scene, const RunSettings& settings, StepWorkspace& workspace, State& state,
+             StepReport& report, RunSummary& summary);
+
 // A run, step by step, for those who want to look in between, to show how far it is, or to end it early.
 class Simulation {
  public:
   // Throws std::invalid_argument as `validate` of scene and settings.
   Simulation(const Scene& scene, const SimulateSettings& settings = {});
 
-  bool is_done() const { return step_ == num_steps_ || trajectory_.status != LcpStatus::solved; }
+  bool is_done() const { return tumble::is_done(run_, trajectory_); }
   void advance();  // one step
 
   double time() const { return state_.time; }
-  std::int64_t step() const { return step_; }
-  std::int64_t num_steps() const { return num_steps_; }
+  std::int64_t step() const { return trajectory_.num_steps; }
+  std::int64_t num_steps() const { return run_.num_steps; }
   const State& state() const { return state_; }
   const StepReport& report() const { return report_; }  // of the last step
   const Trajectory& trajectory() const { return trajectory_; }
@@ -45,7 +64,7 @@ class Simulation {
   void sample();
 
   SimulateSettings settings_;
-  std::int64_t step_ = 0, num_steps_ = 0;
+  RunSettings run_;
   Trajectory trajectory_;  // holds the scene
   std::unique_ptr<StepWorkspace> workspace_;
   State state_;

@@ -18,15 +18,8 @@ struct StepContacts {
   std::vector<ContactRecord> contacts;
 };
 
-// Samples of a run, the first at time 0. Row k of an array over samples belongs to time[k].
-struct Trajectory {
-  Scene scene;
-  double step_size = 0.0;              // [s]
-  std::vector<double> time;            // [s], T samples
-  std::vector<BodyState> states;       // T x bodies of the scene, one sample after the other
-  std::vector<EnergyLedger> energy;    // T; works and losses since the sample before
-  std::vector<StepContacts> contacts;  // of every step in which contacts were at work, if asked for
-
+// What became of a run.
+struct RunSummary {
   std::int64_t num_steps = 0;
   LcpStatus status = LcpStatus::solved;  // other than `solved`: of the last step, with which the run ended
   double residual = 0.0;                 // the largest of all steps
@@ -36,6 +29,16 @@ struct Trajectory {
   double created_energy = 0.0;           // how much in all [J],
   double first_creation = -1.0;          // and when first [s]; -1: never
   bool is_complete = false;              // it reached the end asked for
+};
+
+// Samples of a run, the first at time 0. Row k of an array over samples belongs to time[k].
+struct Trajectory : RunSummary {
+  Scene scene;
+  double step_size = 0.0;              // [s]
+  std::vector<double> time;            // [s], T samples
+  std::vector<BodyState> states;       // T x bodies of the scene, one sample after the other
+  std::vector<EnergyLedger> energy;    // T; works and losses since the sample before
+  std::vector<StepContacts> contacts;  // of every step in which contacts were at work, if asked for
 
   // The bodies at sample k, in the order of the scene.
   std::span<const BodyState> bodies(std::size_t k) const {
