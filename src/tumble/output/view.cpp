@@ -18,7 +18,7 @@ struct AxisRange {
 
 // `place` turns a position relative to the middle [m] into pixels.
 template <class Place>
-Axis make_axis(const AxisRange& range, int count, Place place) {
+Axis make_axis(const AxisRange& range, int count, const std::string& unit, Place place) {
   Axis axis;
   const double step = round_up_nicely(2.0 * range.half / count);
   // Ticks are counted from a base that is a multiple of ten steps: 0 unless the numbers would become too
@@ -36,7 +36,7 @@ Axis make_axis(const AxisRange& range, int count, Place place) {
     axis.ticks.push_back(
         {place(shift + value), is_plain ? fmt::format("{:.{}f}", value, decimals) : fmt::format("{:.6g}", value)});
   }
-  axis.unit = is_far ? fmt::format("m from {:.12g} m", base) : "m";
+  axis.unit = is_far ? fmt::format("{0} from {1:.12g} {0}", unit, base) : unit;
   return axis;
 }
 
@@ -74,14 +74,21 @@ View fit_view(const Sight& sight, const Area& area, const Margins& margins) {
 
 Axis axis_x(const View& view, int count) {
   const double centre = view.area.left + 0.5 * view.area.width;
-  return make_axis({view.middle.x, 0.5 * view.area.width / view.scale}, count,
+  return make_axis({view.middle.x, 0.5 * view.area.width / view.scale}, count, "m",
                    [&](double offset) { return centre + offset * view.scale; });
 }
 
 Axis axis_y(const View& view, int count) {
   const double centre = view.area.top + 0.5 * view.area.height;
-  return make_axis({view.middle.y, 0.5 * view.area.height / view.scale}, count,
+  return make_axis({view.middle.y, 0.5 * view.area.height / view.scale}, count, "m",
                    [&](double offset) { return centre - offset * view.scale; });
+}
+
+Axis axis_along(double low, double high, double start, double end, int count, const std::string& unit) {
+  const double half = 0.5 * high - 0.5 * low;
+  const double scale = 0.5 * (end - start) / half;
+  return make_axis({low + half, half}, count, unit,
+                   [&](double offset) { return start + 0.5 * (end - start) + offset * scale; });
 }
 
 }  // namespace tumble::output

@@ -74,6 +74,9 @@ struct Axis {
 Axis axis_x(const View& view, int count);
 Axis axis_y(const View& view, int count);
 
+// Of a line on which `low` lies at the pixel `start` and `high` at `end`; `unit` as above.
+Axis axis_along(double low, double high, double start, double end, int count, const std::string& unit);
+
 // 1, 2 or 5 times a power of ten: the largest not above `value` > 0, and the smallest not below it.
 double round_down_nicely(double value);
 double round_up_nicely(double value);

@@ -10,9 +10,9 @@
 namespace tumble::sweep {
 namespace {
 
-constexpr int k_dropped_bits = 52 - 7;  // of the mantissa
-constexpr double k_smallest = 0x1p-64;
-constexpr double k_largest = 0x1p64;
+constexpr int k_dropped_bits = 52 - 9;  // of the mantissa
+constexpr double k_smallest = 0x1p-32;
+constexpr double k_largest = 0x1p32;
 
 std::int64_t leading_bits(double size) {
   return static_cast<std::int64_t>(bit_cast<std::uint64_t>(size) >> k_dropped_bits);

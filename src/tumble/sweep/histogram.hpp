@@ -1,4 +1,4 @@
-// A histogram that fits any range: 128 bins for each power of two of either sign, so that quantiles are good to 0.8 %
+// A histogram that fits any range: 512 bins for each power of two of either sign, so that quantiles are good to 0.2 %
 // of their value before the range is known. Counts are whole numbers: the order of adding does not matter.
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace tumble::sweep {
 
-// The bins that are not empty, by increasing number. Bin 0 holds |x| < 2^-64, bin -k the negatives of bin k.
+// The bins that are not empty, by increasing number. Bin 0 holds |x| < 2^-32, bin -k the negatives of bin k.
 struct Histogram {
   std::vector<std::int32_t> bins;
   std::vector<std::int64_t> counts;
 };
 
-inline constexpr std::int32_t k_last_bin = 128 * 128 + 1;  // of 2^64 and all above
+inline constexpr std::int32_t k_last_bin = 64 * 512 + 1;  // of 2^32 and all above
 
 // `x` is not NaN.
 std::int32_t bin_of(double x);
