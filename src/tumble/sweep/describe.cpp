@@ -53,9 +53,7 @@ struct SweptText {
 
 bool is_grid(const Quantity& quantity) { return std::holds_alternative<Grid>(quantity.source); }
 
-bool has_region(const Spec& spec) {
-  return std::isfinite(spec.measures.x_min) || std::isfinite(spec.measures.x_max);
-}
+bool has_region(const Spec& spec) { return std::isfinite(spec.measures.x_min) || std::isfinite(spec.measures.x_max); }
 
 }  // namespace
 

@@ -34,8 +34,8 @@ class Chunks {
 // Of all chunks, merged in their order.
 Statistics merge_statistics(const Chunks& chunks);
 
-// What is kept, columns or statistics, into a .npz or .h5: see docs/sweep.md. The bytes depend on the spec alone. Throws
-// as output::write_table.
+// What is kept, columns or statistics, into a .npz or .h5: see docs/sweep.md. The bytes depend on the spec alone.
+// Throws as output::write_table.
 void write_results(const Chunks& chunks, const Statistics& statistics, const std::filesystem::path& path,
                    bool overwrite);
 

@@ -47,7 +47,7 @@ inline constexpr std::uint64_t k_piece = 65536;
 struct Spec {
   std::string title;
   std::uint64_t seed = 0;
-  std::uint64_t samples = 1;    // instances of each cell
+  std::uint64_t samples = 1;      // instances of each cell
   std::uint64_t chunk = k_piece;  // instances whose results are stored at once
   Keep keep = Keep::columns;
   std::vector<Quantity> quantities;  // all of the model; those swept first, in the order of the text
