@@ -4,9 +4,9 @@
 
 #include "tumble/sweep/chunk_file.hpp"
 #include "tumble/sweep/describe.hpp"
-#include "tumble/sweep/drop_chunk.hpp"
 #include "tumble/sweep/field_bytes.hpp"
 #include "tumble/sweep/plan.hpp"
+#include "tumble/sweep/slice.hpp"
 
 namespace tumble::sweep {
 
@@ -18,8 +18,9 @@ std::vector<std::string> compute_parts(const Spec& spec, std::uint64_t chunk, co
   const Slice slice = slice_of_chunk(spec, chunk);
   Statistics statistics(layout_of(spec));
   std::vector<std::string> parts(num_parts(spec));
-  for (std::size_t done = 0; done < slice.count; done += k_piece) {
-    const Slice piece = {slice.first + done, std::min<std::size_t>(k_piece, slice.count - done)};
+  const std::size_t usual = spec.scene ? k_scene_piece : k_piece;
+  for (std::size_t done = 0; done < slice.count; done += usual) {
+    const Slice piece = {slice.first + done, std::min(usual, slice.count - done)};
     const std::vector<Column> columns = simulate_slice(spec, piece, watch);
     statistics.add(columns);
     for (std::size_t k = k_first_column_part; k < parts.size(); ++k) parts[k] += to_bytes(columns[k - 1]);
