@@ -75,5 +75,21 @@ def test_hashes_of_webassembly_are_the_golden_ones() -> None:
     assert printed == GOLDEN
 
 
+def test_hashes_of_aarch64_are_the_golden_ones() -> None:
+    """NEON and a C library without the x86 in it, in an emulator."""
+    if shutil.which("aarch64-linux-gnu-g++") is None or shutil.which("qemu-aarch64") is None:
+        pytest.skip("no compiler for aarch64 or no emulator: scripts/deps.sh test installs both")
+    build = ROOT / "build-bits/aarch64"
+    off = [f"-DTUMBLE_BUILD_{part}=OFF" for part in ("OUTPUT", "CLI", "PYTHON")]
+    machine = ["-DCMAKE_SYSTEM_NAME=Linux", "-DCMAKE_SYSTEM_PROCESSOR=aarch64", "-DCMAKE_EXE_LINKER_FLAGS=-static"]
+    compiler = ["-DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++", "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O1"]
+    configure = ["cmake", "-S", str(ROOT), "-B", str(build), "-G", "Ninja", "-DTUMBLE_BUILD_HASH=ON", *off, *machine, *compiler]
+    subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", str(build), "--target", "tumble_hash"], check=True, stdout=subprocess.DEVNULL)
+    program = build / "tests/determinism/tumble_hash"
+    printed = subprocess.run(["qemu-aarch64", str(program)], check=True, capture_output=True, text=True).stdout
+    assert printed == GOLDEN
+
+
 def test_compilers_are_there() -> None:
     assert all(shutil.which(compiler, path=os.environ["PATH"]) for compiler, _ in BUILDS.values())
