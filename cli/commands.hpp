@@ -1,6 +1,7 @@
 // The subcommands: each takes its parsed options, calls the library, writes and returns the exit code.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,26 @@ struct RenderOptions {
   ReportOptions report;
 };
 int run_render(const RenderOptions& options);
+
+struct SweepOptions {
+  std::string input;   // "-" is standard input
+  std::string output;  // folder, or file .npz or .h5; empty: a folder named like the input
+  bool overwrite = false;
+  std::uint64_t shard = 1;  // of `shards`, from 1 on
+  std::uint64_t shards = 1;
+  int threads = 0;
+  ReportOptions report;
+};
+int run_sweep(const SweepOptions& options);
+
+struct MergeOptions {
+  std::vector<std::string> folders;
+  std::string output;  // folder, or file .npz or .h5; empty: the first of the folders
+  bool overwrite = false;
+  int threads = 0;
+  ReportOptions report;
+};
+int merge_sweep(const MergeOptions& options);
 
 struct LcpOptions {
   std::vector<std::string> files;     // "-" is standard input

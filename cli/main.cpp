@@ -1,5 +1,6 @@
 // The program `tumble`. CLI11 is included here and nowhere else: it takes longer to compile than the rest
 // together.
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include <fmt/ranges.h>
 
 #include "tumble/lcp/methods.hpp"
+#include "tumble/math/numeric.hpp"
 #include "tumble/output/file.hpp"
 
 namespace tumble::cli {
@@ -41,7 +43,8 @@ const std::map<std::string, std::string> k_option_of_field = {{"l", "--side"},
                                                               {"step_size", "--step-size"},
                                                               {"duration", "--duration"},
                                                               {"sample_every", "--sample-every"},
-                                                              {"method", "--method"}};
+                                                              {"method", "--method"},
+                                                              {"threads", "--threads"}};
 
 std::string with_option_name(const std::string& message) {
   if (message.ends_with("already exists")) return message + "; --force replaces it";
@@ -222,6 +225,64 @@ void add_lcp(CLI::App& program, LcpOptions& options, std::function<int()>& comma
   app.callback([&] { command = [&] { return run_lcp(options); }; });
 }
 
+// "2/8".
+void parse_shard(const std::string& word, SweepOptions& options) {
+  const std::size_t slash = word.find('/');
+  if (slash != std::string::npos) {
+    const auto index = parse_number(word.substr(0, slash));
+    const auto count = parse_number(word.substr(slash + 1));
+    const auto is_count = [](const auto& value) {
+      return value && *value >= 1.0 && *value <= 1e6 && std::floor(*value) == *value;
+    };
+    if (is_count(index) && is_count(count) && *index <= *count) {
+      options.shard = static_cast<std::uint64_t>(*index);
+      options.shards = static_cast<std::uint64_t>(*count);
+      return;
+    }
+  }
+  throw std::invalid_argument(fmt::format("--shard: must be I/N, 1 <= I <= N, got '{}'", word));
+}
+
+void add_sweep_options(CLI::App& app, std::string& output, bool& overwrite, int& threads, const std::string& usual) {
+  app.add_option("-o,--output", output,
+                 "Folder that keeps the chunks and the results, or a file .npz or .h5 for the results alone")
+      ->type_name("NAME")
+      ->default_str(usual);
+  app.add_flag("--force", overwrite, "Replace what is there, also another sweep in the folder");
+  add_parsed(app, "--threads", threads, &whole_number, "Threads, 0 for one on each core", "0", "COUNT");
+}
+
+void add_merge(CLI::App& sweep, MergeOptions& options, std::function<int()>& command) {
+  CLI::App& app = *sweep.add_subcommand("merge", "Make one result out of the chunks of all shards");
+  app.add_option("folders", options.folders, "Folders that shards of one sweep have worked in")
+      ->type_name("FOLDER")
+      ->required();
+  add_sweep_options(app, options.output, options.overwrite, options.threads, "the first folder");
+  add_report_options(app, options.report);
+  app.callback([&] { command = [&] { return merge_sweep(options); }; });
+}
+
+void add_sweep(CLI::App& program, SweepOptions& options, MergeOptions& merge, std::function<int()>& command) {
+  CLI::App& app = *program.add_subcommand("sweep", "Drop many squares: ranges, grids and distributions of starts");
+  CLI::Option* spec =
+      app.add_option("spec", options.input, "What is swept, see docs/sweep.md; '-' reads standard input")
+          ->type_name("FILE");
+  add_sweep_options(app, options.output, options.overwrite, options.threads, "SPEC.sweep");
+  app.add_option_function<std::string>(
+         "--shard", [&options](const std::string& word) { parse_shard(word, options); },
+         "Compute only part I of N, from 1/N to N/N; `tumble sweep merge` puts the parts together")
+      ->type_name("I/N");
+  add_report_options(app, options.report);
+  app.require_subcommand(0, 1);
+  app.footer("Killed or interrupted at any moment, the same call goes on where it was.");
+  add_merge(app, merge, command);
+  app.callback([&app, &options, &command, spec] {
+    if (!app.get_subcommands().empty()) return;
+    if (spec->empty()) throw CLI::RequiredError("spec");
+    command = [&options] { return run_sweep(options); };
+  });
+}
+
 int fail(const std::string& message) { return report_failure(message, k_bad_input); }
 
 // What was printed may still be on its way, to a disk that is full.
@@ -235,7 +296,7 @@ void require_command(const CLI::App& program, const std::string& word) {
   const auto commands = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
   if (commands.empty() && !word.starts_with('-')) {
     throw std::invalid_argument(
-        fmt::format("there is no command '{}'; there are drop, run, check, render and lcp", word));
+        fmt::format("there is no command '{}'; there are drop, run, check, render, sweep and lcp", word));
   }
 }
 
@@ -251,12 +312,15 @@ int run(int argc, char** argv) {
   RunOptions run_options;
   CheckOptions check_options;
   RenderOptions render_options;
+  SweepOptions sweep_options;
+  MergeOptions merge_options;
   LcpOptions lcp_options;
   std::function<int()> command;
   add_drop(program, drop_options, command);
   add_run(program, run_options, command);
   add_check(program, check_options, command);
   add_render(program, render_options, command);
+  add_sweep(program, sweep_options, merge_options, command);
   add_lcp(program, lcp_options, command);
 
   try {

@@ -23,9 +23,10 @@ std::string time_left(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::int64_t total, double step_size)
+Progress::Progress(std::int64_t total, double size, const char* unit)
     : total_(total),
-      step_size_(step_size),
+      size_(size),
+      unit_(unit),
       is_terminal_(::isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
       next_(start_ + k_patience) {}
@@ -41,8 +42,8 @@ void Progress::show(std::int64_t done) {
   next_ = now + k_pause;
   const double share = static_cast<double>(done) / static_cast<double>(total_);
   const double elapsed = Seconds(now - start_).count();
-  fmt::print(stderr, "{}{:3.0f} %: {:.4g} s of {:.4g} s, {} left; Ctrl-C ends it", k_clear_line, 100.0 * share,
-             static_cast<double>(done) * step_size_, static_cast<double>(total_) * step_size_,
+  fmt::print(stderr, "{}{:3.0f} %: {:.4g} {} of {:.4g} {}, {} left; Ctrl-C ends it", k_clear_line, 100.0 * share,
+             static_cast<double>(done) * size_, unit_, static_cast<double>(total_) * size_, unit_,
              time_left(elapsed * (1.0 - share) / share));
   std::fflush(stderr);
   has_shown_ = true;

@@ -9,8 +9,8 @@ namespace tumble::cli {
 // One line that is written anew several times a second, from the first second on, and is gone in the end.
 class Progress {
  public:
-  // Of `total` steps of `step_size` [s].
-  Progress(std::int64_t total, double step_size);
+  // Of `total` steps, of which each one counts as `size` of what is shown with `unit`.
+  Progress(std::int64_t total, double size, const char* unit);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -21,7 +21,8 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   std::int64_t total_;
-  double step_size_;
+  double size_;
+  const char* unit_;
   bool is_terminal_;
   bool has_shown_ = false;
   Clock::time_point start_, next_;

@@ -31,7 +31,7 @@ bool keeps_contacts(const RunOptions& options) {
 Trajectory simulate(const Scene& scene, const SimulateSettings& settings, RunNotes& notes) {
   const InterruptGuard interrupt;
   Simulation simulation(scene, settings);
-  Progress progress(simulation.num_steps(), simulation.trajectory().step_size);
+  Progress progress(simulation.num_steps(), simulation.trajectory().step_size, "s");
   while (!simulation.is_done() && !interrupt.is_interrupted()) {
     simulation.advance();
     notes.take(simulation);

@@ -108,13 +108,15 @@ std::string path_text(const fs::path& path) {
   return text;
 }
 
-OutputFile::OutputFile(const fs::path& path, bool overwrite) : path_(path), overwrite_(overwrite) {
+OutputFile::OutputFile(const fs::path& path, bool overwrite, bool has_temporary_name)
+    : path_(path), overwrite_(overwrite), has_temporary_name_(has_temporary_name) {
   const Target target = find_target(path);
   check(path, target, overwrite);
   target_ = target.path;
   is_direct_ = target.is_direct;
   if (is_direct_) {
     working_path_ = target_;
+    has_temporary_name_ = false;
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
     if (descriptor_ < 0) fail("write", path_, errno);
     return;
@@ -131,7 +133,7 @@ OutputFile::~OutputFile() {
 
 void OutputFile::open_unfinished() {
   // A file without a name is gone whatever ends the process. It is reached, and later named, by way of /proc.
-  if (::access("/proc/self/fd", X_OK) == 0) {
+  if (!has_temporary_name_ && ::access("/proc/self/fd", X_OK) == 0) {
     descriptor_ = ::open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     working_path_ = fmt::format("/proc/{}/fd/{}", ::getpid(), descriptor_);
     if (descriptor_ >= 0) return;

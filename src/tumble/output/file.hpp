@@ -21,7 +21,8 @@ std::string path_text(const std::filesystem::path& path);
 // refuses.
 class OutputFile {
  public:
-  OutputFile(const std::filesystem::path& path, bool overwrite);
+  // `has_temporary_name` asks for such a name everywhere, for a library that cannot open files without one.
+  OutputFile(const std::filesystem::path& path, bool overwrite, bool has_temporary_name = false);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;

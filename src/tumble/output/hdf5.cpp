@@ -150,16 +150,38 @@ Handle memory_settings() {
   return settings;
 }
 
+void write_fields(hid_t file, const std::vector<Field>& fields) {
+  for (const Field& field : fields) {
+    const Handle dataset = std::visit(DatasetWriter{file, field}, field.values);
+    if (!field.unit.empty()) write_units(dataset, field.unit);
+  }
+}
+
+void write_column(hid_t file, const Table& table, std::size_t column) {
+  const auto& [name, unit, is_whole] = table.columns[column];
+  const hid_t type = is_whole ? H5T_STD_I32LE : H5T_IEEE_F64LE;
+  const hsize_t width = is_whole ? 4 : 8;
+  const Handle dataset = create_dataset(file, {name, unit, {table.rows}, {}}, type);
+  hsize_t row = 0;
+  table.read(column, [&](std::string_view bytes) {
+    const hsize_t count = bytes.size() / width;
+    const Handle memory = made(H5Screate_simple(1, &count, nullptr), H5Sclose, "make a data space");
+    const Handle space = made(H5Dget_space(dataset), H5Sclose, "see a data space");
+    require(H5Sselect_hyperslab(space, H5S_SELECT_SET, &row, nullptr, &count, nullptr) >= 0 &&
+                H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, bytes.data()) >= 0,
+            "write dataset " + name);
+    row += count;
+  });
+  if (!unit.empty()) write_units(dataset, unit);
+}
+
 std::string to_hdf5(const std::vector<Field>& fields) {
   const std::lock_guard lock(library_mutex());
   const Silence silence;
   const Handle settings = memory_settings();
   const Handle file =
       made(H5Fcreate("record.h5", H5F_ACC_TRUNC, H5P_DEFAULT, settings), H5Fclose, "make a file in memory");
-  for (const Field& field : fields) {
-    const Handle dataset = std::visit(DatasetWriter{file, field}, field.values);
-    if (!field.unit.empty()) write_units(dataset, field.unit);
-  }
+  write_fields(file, fields);
   require(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0, "complete the file");
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);
   require(size > 0, "measure the file");
@@ -232,6 +254,16 @@ bool has_hdf5() { return true; }
 std::string to_hdf5(const drop::Record& record) { return to_hdf5(to_fields(record)); }
 
 std::string to_hdf5(const Trajectory& trajectory) { return to_hdf5(to_fields(trajectory)); }
+
+void write_table_hdf5(const Table& table, const std::filesystem::path& path) {
+  const std::lock_guard lock(library_mutex());
+  const Silence silence;
+  const Handle file = made(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+                           "make the file " + path.string());
+  for (std::size_t k = 0; k < table.columns.size(); ++k) write_column(file, table, k);
+  write_fields(file, table.notes);
+  require(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0, "complete the file");
+}
 
 drop::Record parse_record_hdf5(std::string_view bytes, const std::string& name) {
   std::map<std::string, NumberArray> fields;

@@ -3,10 +3,12 @@
 // "this build has no HDF5".
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "tumble/drop/drop.hpp"
+#include "tumble/output/table.hpp"
 #include "tumble/trajectory/trajectory.hpp"
 
 namespace tumble::output {
@@ -19,6 +21,9 @@ void check_hdf5();
 // The bytes of the file. They depend on the record or trajectory alone: no times are kept.
 std::string to_hdf5(const drop::Record& record);
 std::string to_hdf5(const Trajectory& trajectory);
+
+// Writes the table into the file of that name, which is made or replaced at once: see write_table.
+void write_table_hdf5(const Table& table, const std::filesystem::path& path);
 
 // Reads what `to_hdf5` wrote, to the same bits; needs and completes what from_fields needs and completes.
 // Throws std::invalid_argument "name: dataset: what, what is allowed".

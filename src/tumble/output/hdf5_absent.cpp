@@ -19,6 +19,8 @@ bool has_hdf5() { return false; }
 std::string to_hdf5(const drop::Record&) { refuse(); }
 std::string to_hdf5(const Trajectory&) { refuse(); }
 
+void write_table_hdf5(const Table&, const std::filesystem::path&) { refuse(); }
+
 drop::Record parse_record_hdf5(std::string_view, const std::string&) { refuse(); }
 
 }  // namespace tumble::output

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tumble/output/npy.hpp"
 #include "tumble/output/record_fields.hpp"
 #include "tumble/output/trajectory_fields.hpp"
 #include "tumble/output/zip.hpp"
@@ -34,21 +35,6 @@ void put_value(std::string& bytes, Value value) {
   char little[sizeof(Bits)];
   for (std::size_t i = 0; i < sizeof(Bits); ++i) little[i] = static_cast<char>((bits >> (8 * i)) & 0xff);
   bytes.append(little, sizeof(Bits));
-}
-
-std::string npy_header(const std::string& descr, const std::vector<std::size_t>& shape) {
-  std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", descr,
-                                       fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
-  const std::size_t before = k_magic.size() + 4;
-  const std::size_t used = before + dictionary.size() + 1;
-  dictionary.append((k_alignment - used % k_alignment) % k_alignment, ' ');
-  dictionary += '\n';
-  std::string header(k_magic);
-  header += '\x01';
-  header += '\x00';
-  header += static_cast<char>(dictionary.size() & 0xff);
-  header += static_cast<char>(dictionary.size() >> 8);
-  return header + dictionary;
 }
 
 // The characters of UTF-8 text without faults.
@@ -102,7 +88,7 @@ struct NpyBody {
 
 std::string to_npz(const std::vector<Field>& fields) {
   ZipWriter zip;
-  for (const Field& field : fields) zip.add(field.name + ".npy", std::visit(NpyBody{field.shape}, field.values));
+  for (const Field& field : fields) zip.add(field.name + ".npy", to_npy(field));
   return zip.finish();
 }
 
@@ -232,6 +218,23 @@ NumberArray parse_npy(std::string_view bytes, const std::string& place) {
 }
 
 }  // namespace
+
+std::string npy_header(const std::string& descr, const std::vector<std::size_t>& shape) {
+  std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", descr,
+                                       fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+  const std::size_t before = k_magic.size() + 4;
+  const std::size_t used = before + dictionary.size() + 1;
+  dictionary.append((k_alignment - used % k_alignment) % k_alignment, ' ');
+  dictionary += '\n';
+  std::string header(k_magic);
+  header += '\x01';
+  header += '\x00';
+  header += static_cast<char>(dictionary.size() & 0xff);
+  header += static_cast<char>(dictionary.size() >> 8);
+  return header + dictionary;
+}
+
+std::string to_npy(const Field& field) { return std::visit(NpyBody{field.shape}, field.values); }
 
 std::string to_npz(const drop::Record& record) { return to_npz(to_fields(record)); }
 

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "tumble/scene/check.hpp"
-#include "tumble/scene/toml_guard.hpp"
 #include "tumble/scene/toml_reader.hpp"
 
 namespace tumble {
@@ -388,15 +387,7 @@ class SceneReader {
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& name) {
-  guard_toml(text, name);
-  toml::table root;
-  try {
-    root = toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    std::string message(error.description());
-    if (!is_plain_text(message)) message = "no TOML";
-    toml_reading::refuse(name, error.source().begin, message);
-  }
+  const toml::table root = toml_reading::parse_table(text, name);
   return SceneReader().read(Value(root, "", name));
 }
 

@@ -1,5 +1,5 @@
-// Tables of a TOML text, read key by key with their places. The one header that includes toml++, for scene_toml.cpp
-// alone: it takes seconds to compile.
+// Tables of a TOML text, read key by key with their places. The one header that includes toml++, for scene_toml.cpp and
+// spec_toml.cpp alone: it takes seconds to compile.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "tumble/math/numeric.hpp"
 #include "tumble/scene/check.hpp"
 #include "tumble/scene/suggestion.hpp"
+#include "tumble/scene/toml_guard.hpp"
 #include "tumble/scene/toml_plus_plus.hpp"
 
 namespace tumble::toml_reading {
@@ -30,6 +31,18 @@ struct PlacedError : std::invalid_argument {
   // Nodes without a place of their own stand on the first line.
   throw PlacedError(fmt::format("{}:{}:{}: {}", name, std::max(at.line, toml::source_index{1}),
                                 std::max(at.column, toml::source_index{1}), why));
+}
+
+// Throws a PlacedError for text that is no TOML.
+inline toml::table parse_table(std::string_view text, const std::string& name) {
+  guard_toml(text, name);
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    std::string message(error.description());
+    if (!is_plain_text(message)) message = "no TOML";
+    refuse(name, error.source().begin, message);
+  }
 }
 
 // A value, the path that messages call it by, and the name of the text.
@@ -103,6 +116,7 @@ class Value {
   }
 
   bool is_list() const { return node_->is_array(); }
+  bool is_table() const { return node_->is_table(); }
 
   std::vector<Value> list(std::size_t least, std::size_t most) const {
     const toml::array* array = node_->as_array();
@@ -149,8 +163,8 @@ class Value {
     for (auto&& [key, value] : table()) {
       order.push_back({key.source().begin, result.size()});
       const std::string word(key.str());
-      result.push_back(
-          {word, Value(value, fmt::format("{}.{}", path_, is_plain_text(word) ? word : shown(word)), *name_)});
+      const std::string last = is_plain_text(word) ? word : shown(word);
+      result.push_back({word, Value(value, path_.empty() ? last : fmt::format("{}.{}", path_, last), *name_)});
     }
     std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
       return a.first.line != b.first.line ? a.first.line < b.first.line : a.first.column < b.first.column;

@@ -1,0 +1,126 @@
+#include "tumble/sweep/answers.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tumble/batch/parallel.hpp"
+#include "tumble/sweep/chunk_file.hpp"
+#include "tumble/sweep/drop_chunk.hpp"
+#include "tumble/sweep/plan.hpp"
+#include "tumble/sweep/spec_statistics.hpp"
+
+namespace tumble::sweep {
+namespace {
+
+// Merges statistics of chunks in their order, whatever the order in which they come.
+class OrderedFold {
+ public:
+  explicit OrderedFold(Statistics& sum) : sum_(sum) {}
+
+  void add(std::uint64_t chunk, Statistics statistics) {
+    const std::lock_guard lock(mutex_);
+    waiting_.emplace(chunk, std::move(statistics));
+    for (auto next = waiting_.find(next_); next != waiting_.end(); next = waiting_.find(next_)) {
+      sum_.merge(next->second);
+      waiting_.erase(next);
+      ++next_;
+    }
+  }
+
+ private:
+  Statistics& sum_;
+  std::mutex mutex_;
+  std::map<std::uint64_t, Statistics> waiting_;
+  std::uint64_t next_ = 0;
+};
+
+Answers begin(const Spec& spec) {
+  Answers answers{spec, {}, Statistics(layout_of(spec))};
+  if (spec.keep == Keep::statistics) return answers;
+  answers.columns = empty_columns(spec);
+  for (Column& column : answers.columns) column.values.resize(num_instances(spec));
+  return answers;
+}
+
+void put(Answers& answers, const std::vector<Column>& chunk, const Slice& slice) {
+  for (std::size_t k = 0; k < answers.columns.size(); ++k) {
+    std::copy(chunk[k].values.begin(), chunk[k].values.end(),
+              answers.columns[k].values.begin() + static_cast<std::ptrdiff_t>(slice.first));
+  }
+}
+
+}  // namespace
+
+Answers simulate_answers(const Spec& spec, int threads, const std::function<void(std::uint64_t)>& watch) {
+  Answers answers = begin(spec);
+  OrderedFold fold(answers.statistics);
+  std::atomic<std::uint64_t> done = 0;
+  std::atomic<bool> is_ended = false;
+  struct Ended {};
+  const auto tell = [&](std::size_t) {
+    try {
+      if (watch) watch(done);
+    } catch (...) {
+      is_ended = true;
+      throw;
+    }
+  };
+  const auto work = [&](std::size_t chunk, std::size_t) {
+    const Slice slice = slice_of_chunk(spec, chunk);
+    const std::vector<Column> columns = simulate_slice(spec, slice, [&] {
+      if (is_ended) throw Ended{};
+    });
+    put(answers, columns, slice);
+    Statistics statistics(answers.statistics.layout());
+    statistics.add(columns);
+    fold.add(chunk, std::move(statistics));
+    done += slice.count;
+  };
+  batch::for_each_chunk(num_chunks(spec), threads, work, tell);
+  return answers;
+}
+
+Answers answers_of(const Spec& spec, std::vector<Column> columns) {
+  Answers answers{spec, {}, Statistics(layout_of(spec))};
+  const std::vector<Column> expected = empty_columns(spec);
+  for (const Column& column : expected) {
+    const Column* found = find_column(columns, column.name);
+    if (found == nullptr) throw std::invalid_argument(fmt::format("{}: is missing", column.name));
+    if (found->values.size() != num_instances(spec)) {
+      throw std::invalid_argument(fmt::format("{}: must have {} rows, as the spec has instances, has {}", column.name,
+                                              num_instances(spec), found->values.size()));
+    }
+  }
+  for (std::uint64_t chunk = 0; chunk < num_chunks(spec); ++chunk) {
+    const auto [first, count] = slice_of_chunk(spec, chunk);
+    std::vector<Column> slice = expected;
+    for (Column& column : slice) {
+      const auto start = find_column(columns, column.name)->values.begin() + static_cast<std::ptrdiff_t>(first);
+      column.values.assign(start, start + static_cast<std::ptrdiff_t>(count));
+    }
+    answers.statistics.add(slice);
+  }
+  answers.columns = std::move(columns);
+  return answers;
+}
+
+Answers read_answers(const Chunks& chunks) {
+  Answers answers = begin(chunks.spec());
+  for (std::uint64_t chunk = 0; chunk < num_chunks(chunks.spec()); ++chunk) {
+    std::vector<Column> columns = empty_columns(chunks.spec());
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      columns[k].values = from_bytes(chunks.read(chunk, k), columns[k].is_whole);
+    }
+    put(answers, columns, slice_of_chunk(chunks.spec(), chunk));
+    answers.statistics.add(columns);
+  }
+  return answers;
+}
+
+}  // namespace tumble::sweep

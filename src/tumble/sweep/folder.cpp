@@ -1,0 +1,90 @@
+#include "tumble/sweep/folder.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "tumble/output/file.hpp"
+
+namespace tumble::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_spec_name = "spec.toml";
+constexpr const char* k_chunks_name = "chunks";
+constexpr std::array<const char*, 1> k_result_names = {k_columns_name};
+
+[[noreturn]] void refuse(const fs::path& path, std::string_view why) {
+  throw std::invalid_argument(fmt::format("{}: {}", output::path_text(path), why));
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw std::system_error(error, fmt::format("cannot make the folder {}", output::path_text(path)));
+}
+
+bool is_unused(const fs::path& path) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+    if (!entry.path().filename().string().starts_with(".tumble-")) return false;  // a file under construction
+  }
+  return true;
+}
+
+Spec read_spec(const fs::path& path) {
+  const fs::path file = path / k_spec_name;
+  return parse_spec(output::read_file(file, k_max_spec_bytes), output::path_text(file));
+}
+
+}  // namespace
+
+Folder::Folder(fs::path path, Spec spec)
+    : path_(std::move(path)), spec_(std::move(spec)), fingerprint_(fingerprint(spec_)) {}
+
+Folder Folder::begin(const fs::path& path, const Spec& spec, bool overwrite) {
+  if (fs::exists(path) && !fs::is_directory(path)) refuse(path, "is no folder");
+  make_folder(path);
+  const fs::path file = path / k_spec_name;
+  if (!fs::exists(file)) {
+    if (!is_unused(path)) refuse(path, "is a folder with other things than a sweep in it");
+    try {
+      output::write_file_atomically(file, spec.text, false);
+    } catch (const std::invalid_argument&) {
+      if (!fs::exists(file)) throw;  // else another shard was first
+    }
+  }
+  Folder folder(path, spec);
+  if (fingerprint(read_spec(path)) != folder.fingerprint_) {
+    if (!overwrite) refuse(path, "holds another sweep: its spec.toml gives other results. --force empties the folder");
+    folder.remove_results();
+    output::write_file_atomically(file, spec.text, true);
+  }
+  make_folder(path / k_chunks_name);
+  return folder;
+}
+
+Folder Folder::open(const fs::path& path) {
+  if (!fs::exists(path / k_spec_name)) refuse(path, "is no folder of a sweep: it has no spec.toml");
+  return {path, read_spec(path)};
+}
+
+fs::path Folder::chunk_path(std::uint64_t chunk) const {
+  return path_ / k_chunks_name / fmt::format("{:06}.chunk", chunk);
+}
+
+void Folder::remove_results() const {
+  fs::remove_all(path_ / k_chunks_name);
+  for (const char* name : k_result_names) fs::remove(path_ / name);
+}
+
+void Folder::remove() const {
+  remove_results();
+  fs::remove(path_ / k_spec_name);
+  std::error_code is_not_empty;
+  fs::remove(path_, is_not_empty);
+}
+
+}  // namespace tumble::sweep

@@ -1,0 +1,37 @@
+// Computes what is missing in the folder of a sweep.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tumble/sweep/folder.hpp"
+
+namespace tumble::sweep {
+
+// Chunk c belongs to shard c mod `count`; `index` in [0, count).
+struct Shard {
+  std::uint64_t index = 0;
+  std::uint64_t count = 1;
+};
+
+struct RunSettings {
+  Shard shard{};
+  int threads = 0;                         // 0: one for each core
+  std::function<bool()> is_interrupted{};  // asked often, from all threads; once it is true the run ends
+  std::function<void(std::uint64_t instances)> progress{};  // called now and then from the calling thread
+};
+
+struct RunReport {
+  std::uint64_t chunks = 0;         // of the shard
+  std::uint64_t found = 0;          // of these, complete from an earlier run
+  std::vector<std::string> faults;  // why files of chunks were computed again, "path: reason"
+  bool is_interrupted = false;      // chunks are missing then
+};
+
+// Each chunk that is finished stays, whatever comes then; the folder is the same for any number of threads. Throws
+// std::system_error if a file cannot be written.
+RunReport run_sweep(const Folder& folder, const RunSettings& settings);
+
+}  // namespace tumble::sweep

@@ -1,0 +1,250 @@
+"""`tumble sweep` as a user meets it: a spec in, columns out, whatever happens on the way."""
+
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from program import PROGRAM, refuse, succeed, tumble
+from tumble import drop
+
+SPEC = """
+sweep = 1
+seed = 7
+samples = 200
+chunk = 300
+[start]
+x = { uniform = [-1, 1] }
+y = 1.4
+theta = { uniform = ["0 deg", "360 deg"] }
+omega = { normal = [0, 2] }
+[parameters]
+mu = { range = [0, 1, 5] }
+eps = { normal = [0.8, 0.2] }
+m = { log_uniform = [0.1, 10] }
+l = { list = [0.1, 0.2] }
+steps = 99
+[measures]
+rest_speed = 0.3
+region = [-1, 1]
+"""
+NUM_CHUNKS = 7
+# Takes seconds on any machine, in many chunks.
+LONG = SPEC.replace("samples = 200", "samples = 6000").replace("chunk = 300", "chunk = 2000").replace("99", "1500")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "drops.toml").write_text(SPEC)
+    return tmp_path
+
+
+def chunks_in(folder: Path) -> list[Path]:
+    return sorted((folder / "chunks").glob("*.chunk"))
+
+
+def test_columns_are_the_drops_of_the_spec(folder: Path) -> None:
+    text = succeed("sweep", "drops.toml", cwd=folder)
+    data = np.load(folder / "drops.sweep/columns.npz")
+    assert text.startswith("2000 instances: ") and text.endswith("wrote drops.sweep/columns.npz\n")
+    assert str(data["spec"]) == SPEC and list(data["axes"]) == ["mu", "l"]
+    assert np.array_equal(data["mu"], np.repeat([0, 0.25, 0.5, 0.75, 1], 400))
+    assert np.array_equal(data["l"], np.tile(np.repeat([0.1, 0.2], 200), 5))
+    assert float(data["y"]) == 1.4 and int(data["steps"]) == 99
+
+    is_invalid = (data["eps"] < 0) | (data["eps"] > 1)
+    assert 0 < is_invalid.sum() < 1000 and np.array_equal(data["status"] == 2, is_invalid)
+    assert np.isnan(data["final_x"][is_invalid]).all() and (data["face"][is_invalid] == -1).all()
+    assert f"{is_invalid.sum()} invalid" in text
+
+    for i in np.flatnonzero(~is_invalid)[::97]:
+        parameters = {name: float(data[name][i]) for name in ("mu", "eps", "m", "l")}
+        parameters = drop.Parameters(columns=100, **parameters)
+        q, v = drop.simulate([data["x"][i], 1.4, data["theta"][i]], [0, -0.2, data["omega"][i]], parameters)
+        assert [data[f"final_{name}"][i] for name in ("x", "y", "theta")] == list(q[:, -1])
+        outside = np.flatnonzero((q[0] < -1) | (q[0] > 1))
+        assert data["escape_time"][i] == outside[0] * 0.01 if len(outside) else np.isnan(data["escape_time"][i])
+
+
+def test_draws_are_those_of_numpys_philox(folder: Path) -> None:
+    succeed("sweep", "drops.toml", "-o", "a.npz", cwd=folder)
+    data = np.load(folder / "a.npz")
+    for name, number, low, high in [("x", 0, -1.0, 1.0), ("theta", 2, 0.0, 2 * np.pi)]:
+        words = [np.random.Philox(counter=[0, i, 0, 0], key=7).random_raw(number + 1)[number] for i in range(2000)]
+        expected = low + (np.array(words) >> np.uint64(11)) * 2.0**-53 * (high - low)
+        assert np.array_equal(data[name], expected)
+    assert abs(data["omega"].mean()) < 4 * 2 / 2000**0.5
+    assert data["m"].min() >= 0.1 and data["m"].max() <= 10
+
+
+def test_h5_holds_the_same(folder: Path) -> None:
+    report = json.loads(succeed("sweep", "drops.toml", "-o", "a.h5", "--json", cwd=folder))
+    succeed("sweep", "drops.toml", "-o", "a.npz", "--quiet", cwd=folder)
+    assert not (folder / "a.h5.chunks").exists() and sorted(os.listdir(folder)) == ["a.h5", "a.npz", "drops.toml"]
+    archive = np.load(folder / "a.npz")
+    assert report["status"]["solved"] == (archive["status"] == 0).sum() and report["files"] == ["a.h5"]
+    assert report["face"] == np.bincount(archive["face"][archive["status"] == 0], minlength=4).tolist()
+    with h5py.File(folder / "a.h5") as file:
+        assert set(file) == set(archive) and file["max_impulse"].attrs["units"] == b"N s"
+        for name in archive:
+            if archive[name].dtype.kind in "fi":
+                assert file[name].dtype == archive[name].dtype
+                assert np.array_equal(file[name][()], archive[name], equal_nan=True)
+
+
+@pytest.mark.parametrize("ending", ["npz", "h5"])
+def test_shards_merge_to_the_file_of_the_single_run(folder: Path, ending: str) -> None:
+    succeed("sweep", "drops.toml", "-o", f"single.{ending}", "--threads", 1, cwd=folder)
+    for shard in (3, 1, 2):
+        succeed("sweep", "drops.toml", "-o", "shared", "--shard", f"{shard}/3", cwd=folder)
+        succeed("sweep", "drops.toml", "-o", f"own{shard}", "--shard", f"{shard}/3", "--threads", 3, cwd=folder)
+        assert len(chunks_in(folder / f"own{shard}")) == {1: 3, 2: 2, 3: 2}[shard]
+    succeed("sweep", "merge", "shared", "-o", f"a.{ending}", cwd=folder)
+    succeed("sweep", "merge", "own2", "own3", "own1", "-o", f"b.{ending}", cwd=folder)
+    expected = (folder / f"single.{ending}").read_bytes()
+    assert (folder / f"a.{ending}").read_bytes() == expected
+    assert (folder / f"b.{ending}").read_bytes() == expected
+
+
+def test_merge_says_what_is_missing(folder: Path) -> None:
+    succeed("sweep", "drops.toml", "-o", "own1", "--shard", "1/3", cwd=folder)
+    succeed("sweep", "drops.toml", "-o", "own2", "--shard", "2/3", cwd=folder)
+    error = refuse("sweep", "merge", "own1", "own2", "-o", "a.npz", cwd=folder)
+    assert error == "tumble: own1: the sweep is not finished: of 7 chunks, 2 are missing: 2, 5\n"
+    assert not (folder / "a.npz").exists()
+    (folder / "drops.toml").write_text(SPEC.replace("seed = 7", "seed = 8"))
+    succeed("sweep", "drops.toml", "-o", "own3", "--shard", "3/3", cwd=folder)
+    assert refuse("sweep", "merge", "own1", "own2", "own3", cwd=folder) == "tumble: own3: holds another sweep than own1\n"
+    assert refuse("sweep", "merge", ".", cwd=folder) == "tumble: .: is no folder of a sweep: it has no spec.toml\n"
+
+
+def test_a_rerun_computes_only_what_is_missing_or_damaged(folder: Path) -> None:
+    succeed("sweep", "drops.toml", cwd=folder)
+    results = folder / "drops.sweep/columns.npz"
+    expected = results.read_bytes()
+    files = chunks_in(folder / "drops.sweep")
+    assert len(files) == NUM_CHUNKS
+    damaged = bytearray(files[4].read_bytes())
+    damaged[-9] ^= 1
+    files[4].write_bytes(damaged)
+    files[1].write_bytes(files[1].read_bytes()[:-1])
+    files[5].unlink()
+    results.unlink()
+    before = {file: file.stat().st_mtime_ns for file in files if file.exists()}
+    error = refuse("sweep", "merge", "drops.sweep", cwd=folder)
+    assert "000001.chunk: is cut off, or too long; run the sweep or its shard again" in error
+
+    run = tumble("sweep", "drops.toml", cwd=folder)
+    assert run.returncode == 0
+    assert run.stderr.splitlines() == [
+        "tumble: drops.sweep/chunks/000001.chunk: is cut off, or too long; computed again",
+        "tumble: drops.sweep/chunks/000004.chunk: is damaged: part 17 has another checksum; computed again",
+    ]
+    assert results.read_bytes() == expected
+    changed = {file for file in files if before.get(file) != file.stat().st_mtime_ns}
+    assert changed == {files[1], files[4], files[5]}
+
+
+def test_another_sweep_in_the_folder_is_refused(folder: Path) -> None:
+    succeed("sweep", "drops.toml", cwd=folder)
+    before = (folder / "drops.sweep/columns.npz").read_bytes()
+    (folder / "drops.toml").write_text("# A comment changes nothing.\n" + SPEC)
+    succeed("sweep", "drops.toml", cwd=folder)
+    (folder / "drops.toml").write_text(SPEC.replace("seed = 7", "seed = 8"))
+    error = refuse("sweep", "drops.toml", cwd=folder)
+    assert error == (
+        "tumble: drops.sweep: holds another sweep: its spec.toml gives other results. --force empties the folder\n"
+    )
+    succeed("sweep", "drops.toml", "--force", cwd=folder)
+    assert (folder / "drops.sweep/columns.npz").read_bytes() != before
+    (folder / "other").mkdir()
+    (folder / "other/letter.txt").write_text("Dear")
+    error = refuse("sweep", "drops.toml", "-o", "other", "--force", cwd=folder)
+    assert error == "tumble: other: is a folder with other things than a sweep in it\n"
+    assert os.listdir(folder / "other") == ["letter.txt"]
+
+
+def test_bad_input_leaves_nothing_behind(folder: Path) -> None:
+    (folder / "bad.toml").write_text(SPEC.replace("[0, 1, 5]", "[-1, 1, 5]"))
+    assert refuse("sweep", "bad.toml", cwd=folder) == (
+        "tumble: bad.toml:12:17: parameters.mu.range[0]: must be in [0, 1000000], got -1\n"
+    )
+    for word in ("0/3", "4/3", "1", "a/b", "1/0"):
+        error = refuse("sweep", "drops.toml", "--shard", word, cwd=folder)
+        assert error == f"tumble: --shard: must be I/N, 1 <= I <= N, got '{word}'\n"
+    (folder / "a.npz").write_text("mine")
+    assert "already exists; --force replaces it" in refuse("sweep", "drops.toml", "-o", "a.npz", cwd=folder)
+    assert "folder" in refuse("sweep", "drops.toml", "-o", "b.npz", "--shard", "1/2", cwd=folder)
+    assert refuse("sweep", "drops.toml", "--threads", "-1", cwd=folder).startswith("tumble: --threads: must be in [0, ")
+    assert "spec" in refuse("sweep", cwd=folder)
+    assert sorted(os.listdir(folder)) == ["a.npz", "bad.toml", "drops.toml"]
+
+
+def start(folder: Path, *words: object) -> subprocess.Popen[str]:
+    command = [str(PROGRAM), "sweep", "drops.toml", *(str(word) for word in words)]
+    return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def test_killed_at_any_moment_it_goes_on(folder: Path) -> None:
+    (folder / "drops.toml").write_text(LONG)
+    begin = time.monotonic()
+    succeed("sweep", "drops.toml", "-o", "whole.npz", cwd=folder)
+    duration = time.monotonic() - begin
+    moments = random.Random(1)
+    kept: dict[Path, int] = {}
+    for _ in range(12):
+        run = start(folder, "-o", "part")
+        time.sleep(moments.uniform(0, 0.3 * duration))
+        run.kill()
+        run.communicate()
+        now = {file: file.stat().st_mtime_ns for file in chunks_in(folder / "part")}
+        assert kept.items() <= now.items()  # nothing that was finished is computed again
+        kept = now
+    assert kept
+    succeed("sweep", "drops.toml", "-o", "part", cwd=folder)
+    assert kept.items() <= {file: file.stat().st_mtime_ns for file in chunks_in(folder / "part")}.items()
+    assert (folder / "part/columns.npz").read_bytes() == (folder / "whole.npz").read_bytes()
+    assert sorted(os.listdir(folder / "part")) == ["chunks", "columns.npz", "spec.toml"]
+
+
+def test_ctrl_c_ends_it_and_leaves_a_folder_to_go_on_with(folder: Path) -> None:
+    (folder / "drops.toml").write_text(LONG)
+    run = start(folder, "-o", "part")
+    while not chunks_in(folder / "part"):
+        time.sleep(0.01)
+    run.send_signal(signal.SIGINT)
+    begin = time.monotonic()
+    out, error = run.communicate(timeout=60)
+    assert time.monotonic() - begin < 5
+    assert run.returncode == 130 and out == ""
+    assert error == "tumble: interrupted; the same call goes on with what is in part\n"
+    kept = {file: file.stat().st_mtime_ns for file in chunks_in(folder / "part")}
+    assert kept
+    succeed("sweep", "drops.toml", "-o", "part", cwd=folder)
+    assert kept.items() <= {file: file.stat().st_mtime_ns for file in chunks_in(folder / "part")}.items()
+
+
+@pytest.mark.skipif(shutil.which("unshare") is None or os.geteuid() != 0, reason="needs a file system of its own")
+def test_a_full_disk_is_reported_and_repaired(folder: Path) -> None:
+    (folder / "drops.toml").write_text(LONG)
+    succeed("sweep", "drops.toml", "-o", "whole.npz", cwd=folder)
+    (folder / "disk").mkdir()
+    script = (
+        f"mount -t tmpfs -o size=1m none disk && {PROGRAM} sweep drops.toml -o disk/part; code=$?;"
+        "ls disk/part/chunks | wc -l; mount -o remount,size=1g disk && "
+        f"{PROGRAM} sweep drops.toml -o disk/part --quiet && cmp disk/part/columns.npz whole.npz && exit $code"
+    )
+    run = subprocess.run(["unshare", "-m", "sh", "-c", script], cwd=folder, capture_output=True, text=True, timeout=120)
+    if "mount" in run.stderr:
+        pytest.skip("may not mount")
+    assert run.returncode == 2, run.stderr
+    assert run.stderr.startswith("tumble: cannot write disk/part/chunks/0000")
+    assert run.stderr.endswith("No space left on device\n") and run.stderr.count("\n") == 1
+    assert int(run.stdout) >= 1
