@@ -39,13 +39,6 @@ Names names_of(const Entries& entries) {
       fmt::format("{}: must be the name of a {}, got {}{}", field, what, shown(name), suggestion(name, words)));
 }
 
-int find_material(const SceneHandle& handle, const py::handle& object, const std::string& field) {
-  const std::string name = as_text(object, field.c_str());
-  const auto found = handle.materials.find(name);
-  if (found == handle.materials.end()) refuse_unknown(field, "material", name, handle.materials);
-  return found->second;
-}
-
 int add_material_to(SceneHandle& handle, Material material) {
   const std::size_t index = handle.scene.materials.size();
   if (index == k_max_materials) {
@@ -82,7 +75,7 @@ void add_material(SceneHandle& handle, const py::handle& name_object, const py::
 
 void add_pair(SceneHandle& handle, const py::handle& a, const py::handle& b, const py::handle& friction,
               const py::handle& static_friction, const py::handle& restitution) {
-  MaterialPair pair{find_material(handle, a, "a"), find_material(handle, b, "b"), {}};
+  MaterialPair pair{handle.find_material(a, "a"), handle.find_material(b, "b"), {}};
   const Scene& scene = handle.scene;
   if (pair.a == pair.b) throw std::invalid_argument("b: must be another material than a");
   if (scene.pairs.size() == k_max_pairs) {
@@ -120,7 +113,7 @@ Part as_part(SceneHandle& handle, const py::handle& object, const BodyFields& bo
   const bool has_material = !entries[3].is_none();
   const py::object material = has_material ? py::object(entries[3]) : body.find("material");
   if (!material.is_none()) {
-    part.material = find_material(handle, material, has_material ? place + "material" : "material");
+    part.material = handle.find_material(material, has_material ? place + "material" : "material");
   } else {
     const auto found = handle.materials.find(k_default_material);
     part.material = found != handle.materials.end() ? found->second
@@ -338,6 +331,13 @@ int SceneHandle::find_body(const py::handle& object) const {
   return static_cast<int>(index < 0 ? index + count : index);
 }
 
+int SceneHandle::find_material(const py::handle& object, const std::string& field) const {
+  const std::string name = as_text(object, field.c_str());
+  const auto found = materials.find(name);
+  if (found == materials.end()) refuse_unknown(field, "material", name, materials);
+  return found->second;
+}
+
 void bind_scene(py::module_& module) {
   py::class_<SceneHandle>(module, "Scene")
       .def(py::init([] { return SceneHandle{}; }))
@@ -352,7 +352,7 @@ void bind_scene(py::module_& module) {
       .def("find_body", &SceneHandle::find_body, "body"_a)
       .def("law",
            [](const SceneHandle& handle, const py::object& a, const py::object& b) {
-             return law_tuple(contact_law(handle.scene, find_material(handle, a, "a"), find_material(handle, b, "b")));
+             return law_tuple(contact_law(handle.scene, handle.find_material(a, "a"), handle.find_material(b, "b")));
            })
       .def("materials",
            [](const SceneHandle& handle) {

@@ -18,6 +18,9 @@ struct SceneHandle {
 
   // By name or index; negative indices count from the end. Raises ValueError with a suggestion, IndexError, TypeError.
   int find_body(const py::handle& object) const;
+
+  // By name. Raises ValueError with a suggestion, TypeError.
+  int find_material(const py::handle& object, const std::string& field) const;
 };
 
 SceneHandle handle_of(Scene scene);

@@ -35,22 +35,6 @@ struct ContactRow {
   double normal_impulse, friction_impulse, restitution, law_friction, law_static_friction, law_restitution;
 };
 
-struct Field {
-  const char* name;
-  const char* format;
-  std::size_t offset;
-};
-
-py::dtype dtype_of(std::span<const Field> fields, std::size_t size) {
-  py::list names, formats, offsets;
-  for (const Field& field : fields) {
-    names.append(field.name);
-    formats.append(field.format);
-    offsets.append(field.offset);
-  }
-  return py::dtype(names, formats, offsets, static_cast<py::ssize_t>(size));
-}
-
 py::dtype contact_dtype() {
   constexpr std::array fields = {
       Field{"step", "i8", offsetof(ContactRow, step)},
@@ -193,15 +177,29 @@ StepSettings as_step_settings(const py::handle& solver, const py::handle& num_sw
   return {word == words[0] ? ContactSolver::exact : ContactSolver::fast, as_positive_count(num_sweeps, "num_sweeps")};
 }
 
-int as_positive_count(const py::handle& object, const char* field) {
+int as_whole_number(const py::handle& object, const char* field, int low, int high) {
   const bool is_whole = PyIndex_Check(object.ptr()) && !PyBool_Check(object.ptr());
   const long value =
-      is_whole ? PyLong_AsLong(py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr())).ptr()) : 0;
+      is_whole ? PyLong_AsLong(py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr())).ptr()) : -1;
+  const bool is_long = is_whole && !PyErr_Occurred();
   PyErr_Clear();
-  constexpr int most = std::numeric_limits<int>::max();
-  if (value >= 1 && value <= most) return static_cast<int>(value);
+  if (is_long && value >= low && value <= high) return static_cast<int>(value);
   throw std::invalid_argument(
-      fmt::format("{}: must be a whole number in [1, {}], got {}", field, most, short_repr(object)));
+      fmt::format("{}: must be a whole number in [{}, {}], got {}", field, low, high, short_repr(object)));
+}
+
+int as_positive_count(const py::handle& object, const char* field) {
+  return as_whole_number(object, field, 1, std::numeric_limits<int>::max());
+}
+
+py::dtype dtype_of(std::span<const Field> fields, std::size_t size) {
+  py::list names, formats, offsets;
+  for (const Field& field : fields) {
+    names.append(field.name);
+    formats.append(field.format);
+    offsets.append(field.offset);
+  }
+  return py::dtype(names, formats, offsets, static_cast<py::ssize_t>(size));
 }
 
 py::array to_numpy(std::span<const StepContacts> steps, double step_size) {

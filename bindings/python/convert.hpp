@@ -52,5 +52,6 @@ void bind_shape(py::module_& module);
 void bind_scene(py::module_& module);
 void bind_trajectory(py::module_& module);
 void bind_simulation(py::module_& module);
+void bind_rollout(py::module_& module);
 
 }  // namespace tumble::python

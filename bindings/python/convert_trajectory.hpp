@@ -1,6 +1,7 @@
 // Contacts, energies and settings of simulations <-> Python, for the bindings that simulate.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -15,8 +16,17 @@ namespace tumble::python {
 // "exact" or "fast", and the sweeps of the latter. Raises ValueError.
 StepSettings as_step_settings(const py::handle& solver, const py::handle& num_sweeps);
 
-// A whole number from 1 on. Raises ValueError.
+// A whole number in [low, high], from 1 on. Raise ValueError.
+int as_whole_number(const py::handle& object, const char* field, int low, int high);
 int as_positive_count(const py::handle& object, const char* field);
+
+// A field of a struct of `size` bytes, for numpy.
+struct Field {
+  const char* name;
+  const char* format;
+  std::size_t offset;
+};
+py::dtype dtype_of(std::span<const Field> fields, std::size_t size);
 
 // One row for each contact, in the order given; read-only.
 py::array to_numpy(std::span<const StepContacts> steps, double step_size);

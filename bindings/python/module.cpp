@@ -168,4 +168,5 @@ PYBIND11_MODULE(_core, module) {
   tumble::python::bind_scene(module);
   tumble::python::bind_trajectory(module);
   tumble::python::bind_simulation(module);
+  tumble::python::bind_rollout(module);
 }

@@ -18,7 +18,7 @@ def test_docstrings_are_true(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["drop", "lcp", "lcp.solvers", "lcp.contacts", "lcp.rational", "_shapes", "_scene", "_simulate", "_simulation", "_trajectory"]
+    "name", ["drop", "lcp", "lcp.solvers", "lcp.contacts", "lcp.rational", "_shapes", "_scene", "_rollout", "_simulate", "_simulation", "_trajectory"]
 )
 def test_there_are_examples(name: str) -> None:
     module = importlib.import_module(f"tumble.{name}")

@@ -8,6 +8,8 @@ square, rectangle, regular_polygon, polygon, disc, ellipse, capsule, segment, ha
     Shapes.
 simulate
     A scene from its start to its end, as a `Trajectory`.
+rollout
+    The same with many starts, masses, contact laws at once, over all cores, as a `Rollout`.
 Simulation
     A scene step by step, with forces and motions from outside.
 Part, Knot, Wrench, Material, ContactLaw, Body
@@ -43,12 +45,14 @@ from tumble._shapes import (
     square,
     terrain,
 )
+from tumble._rollout import BodyRollout, Rollout, rollout
 from tumble._simulate import Interrupted, SimulationWarning, simulate
 from tumble._simulation import BodyState, Simulation
 from tumble._trajectory import BodyTrajectory, Trajectory
 
 __all__ = [
     "Body",
+    "BodyRollout",
     "BodyState",
     "BodyTrajectory",
     "ContactLaw",
@@ -57,6 +61,7 @@ __all__ = [
     "Material",
     "NoSolution",
     "Part",
+    "Rollout",
     "Scene",
     "Shape",
     "Simulation",
@@ -73,6 +78,7 @@ __all__ = [
     "polygon",
     "rectangle",
     "regular_polygon",
+    "rollout",
     "segment",
     "simulate",
     "simulate_batch",
