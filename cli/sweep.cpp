@@ -15,9 +15,11 @@
 #include "tumble/batch/parallel.hpp"
 #include "tumble/output/file.hpp"
 #include "tumble/output/table.hpp"
+#include "tumble/sweep/describe.hpp"
 #include "tumble/sweep/plan.hpp"
 #include "tumble/sweep/results.hpp"
 #include "tumble/sweep/run.hpp"
+#include "tumble/sweep/sweep_plots.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -44,40 +46,35 @@ sweep::Spec read_spec(const std::string& file) {
   return sweep::parse_spec(read_input(file, sweep::k_max_spec_bytes), input_name(file));
 }
 
-std::string share(std::uint64_t part, std::uint64_t whole) {
-  return fmt::format("{} ({:.4g} %)", part, 100.0 * static_cast<double>(part) / static_cast<double>(whole));
-}
-
-std::string counts_text(const sweep::Counts& counts) {
-  const auto [solved, numerical, invalid] = counts.by_status;
-  std::string text =
-      fmt::format("{} instances: {} solved, {} numerical, {} invalid\n", counts.instances, solved, numerical, invalid);
-  if (solved == 0) return text;
-  text += "side of the square that is up at the end:";
-  const char* names[] = {"+y", "+x", "-y", "-x"};
-  for (std::size_t k = 0; k < 4; ++k)
-    text += fmt::format("{} {} {}", k ? "," : "", names[k], share(counts.by_face[k], solved));
-  return text + "\n";
-}
-
-std::string counts_json(const sweep::Counts& counts, const std::vector<std::string>& files) {
-  const auto [solved, numerical, invalid] = counts.by_status;
-  const Json report = {{"instances", counts.instances},
-                       {"status", {{"solved", solved}, {"numerical", numerical}, {"invalid", invalid}}},
-                       {"face", counts.by_face},
-                       {"files", files}};
-  return to_text(report);
-}
-
-// Writes the results of a sweep that is complete, and prints what they are.
-void finish(std::span<const sweep::Folder> folders, const fs::path& file, bool overwrite, int threads,
+// Writes the results of a sweep that is complete, and prints what they are. With `file` nothing else is written.
+void finish(std::span<const sweep::Folder> folders, const Targets& targets, bool overwrite, int threads,
             const ReportOptions& report) {
   const sweep::Chunks chunks(folders, threads);
-  sweep::write_columns(chunks, file, overwrite);
+  const sweep::Spec& spec = chunks.spec();
+  const sweep::Statistics statistics = sweep::merge_statistics(chunks);
+  const sweep::Summary summary = sweep::summarise(statistics, sweep::facts_of(spec));
+  std::vector<std::string> files;
+  if (!targets.file.empty()) {
+    sweep::write_results(chunks, statistics, targets.file, overwrite);
+    files.push_back(targets.file.string());
+  } else {
+    const auto in_folder = [&](const char* name) { return files.emplace_back((targets.folder / name).string()); };
+    const bool has_columns = spec.keep == sweep::Keep::columns;
+    sweep::write_results(chunks, statistics, in_folder(has_columns ? sweep::k_columns_name : sweep::k_statistics_name),
+                         true);
+    output::write_file_atomically(in_folder(sweep::k_table_name), sweep::to_csv(summary), true);
+    output::write_file_atomically(in_folder(sweep::k_json_name), sweep::to_json(summary), true);
+    const std::optional<sweep::Fan> fan = sweep::fan_of(spec);
+    sweep::write_plot({statistics, summary, fan ? &*fan : nullptr}, in_folder(sweep::k_picture_name), {}, true);
+  }
   if (report.quiet) return;
-  const sweep::Counts counts = sweep::count(chunks);
-  const std::vector<std::string> files = {file.string()};
-  fmt::print("{}", report.json ? counts_json(counts, files) : counts_text(counts) + files_text(files));
+  if (!report.json) {
+    fmt::print("{}{}", sweep::to_text(summary), files_text(files));
+    return;
+  }
+  Json json = Json::parse(sweep::to_json(summary));
+  json["files"] = files;
+  fmt::print("{}", to_text(json));
 }
 
 sweep::RunReport compute(const sweep::Folder& folder, const SweepOptions& options) {
@@ -126,12 +123,8 @@ int run_sweep(const SweepOptions& options) {
         k_interrupted);
   }
   if (options.shards > 1) return report_shard(options, report, folder.path());
-  if (targets.file.empty()) {
-    finish({&folder, 1}, folder.path() / sweep::k_columns_name, true, options.threads, options.report);
-  } else {
-    finish({&folder, 1}, targets.file, options.overwrite, options.threads, options.report);
-    folder.remove();
-  }
+  finish({&folder, 1}, targets, options.overwrite, options.threads, options.report);
+  if (!targets.file.empty()) folder.remove();
   return k_done;
 }
 
@@ -139,13 +132,15 @@ int merge_sweep(const MergeOptions& options) {
   batch::require_threads(options.threads);
   std::vector<sweep::Folder> folders;
   for (const std::string& folder : options.folders) folders.push_back(sweep::Folder::open(folder));
+  Targets targets;
   if (output::is_table_name(options.output)) {
-    finish(folders, options.output, options.overwrite, options.threads, options.report);
-    return k_done;
+    output::check_table_writable(options.output, options.overwrite);
+    targets.file = options.output;
+  } else {
+    targets.folder = options.output.empty() ? options.folders[0] : options.output;
+    fs::create_directories(targets.folder);
   }
-  const fs::path target = options.output.empty() ? fs::path(options.folders[0]) : fs::path(options.output);
-  fs::create_directories(target);
-  finish(folders, target / sweep::k_columns_name, true, options.threads, options.report);
+  finish(folders, targets, options.overwrite, options.threads, options.report);
   return k_done;
 }
 

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,9 +14,9 @@
 #include <pybind11/stl.h>
 
 #include "tumble/sweep/answers.hpp"
+#include "tumble/sweep/describe.hpp"
 #include "tumble/sweep/plan.hpp"
 #include "tumble/sweep/run.hpp"
-#include "tumble/sweep/spec_statistics.hpp"
 #include "tumble/sweep/sweep_plots.hpp"
 
 namespace tumble::python {
@@ -98,6 +99,30 @@ Answers from_columns(const std::string& text, const std::string& name, const std
   return std::move(*answers);
 }
 
+template <class T>
+std::vector<T> to_vector(const py::array& array) {
+  const auto values = py::array_t<T, py::array::c_style | py::array::forcecast>(array);
+  return {values.data(), values.data() + values.size()};
+}
+
+// Of the arrays whose names begin with "statistics_".
+Answers from_statistics(const std::string& text, const std::string& name,
+                        const std::map<std::string, py::array>& arrays) {
+  const sweep::Spec spec = sweep::parse_spec(text, name);
+  std::vector<output::Field> fields;
+  for (const auto& [field, array] : arrays) {
+    fields.push_back({field, "", {}, std::vector<double>{}});
+    if (array.dtype().kind() == 'f') {
+      fields.back().values = to_vector<double>(array);
+    } else if (array.dtype().itemsize() == 4) {
+      fields.back().values = to_vector<std::int32_t>(array);
+    } else {
+      fields.back().values = to_vector<std::int64_t>(array);
+    }
+  }
+  return sweep::answers_of(spec, fields);
+}
+
 // Doubles as a view of the memory of `self`, whole numbers as a copy.
 py::dict columns_of(const py::object& self) {
   py::dict columns;
@@ -125,9 +150,9 @@ py::bytes draw(const Answers& answers, const std::string& kind, int width, int h
   std::string bytes;
   without_gil([&] {
     const sweep::PlotSettings settings{kind, width, height};
-    const sweep::Fan fan = sweep::shows_fan(settings) ? sweep::simulate_fan(answers.spec) : sweep::Fan{};
+    const std::optional<sweep::Fan> fan = sweep::shows_fan(settings) ? sweep::fan_of(answers.spec) : std::nullopt;
     const sweep::Summary summary = summary_of(answers);
-    const sweep::PlotSource source{answers.statistics, summary, &fan};
+    const sweep::PlotSource source{answers.statistics, summary, fan ? &*fan : nullptr};
     bytes = is_svg ? sweep::to_plot_svg(source, settings) : sweep::to_plot_png(source, settings);
   });
   return bytes;
@@ -157,4 +182,5 @@ PYBIND11_MODULE(_sweep, module) {
              "overwrite"_a, "progress"_a);
   module.def("read", &python::read, "folders"_a, "threads"_a);
   module.def("from_columns", &python::from_columns, "text"_a, "name"_a, "columns"_a);
+  module.def("from_statistics", &python::from_statistics, "text"_a, "name"_a, "arrays"_a);
 }

@@ -11,9 +11,10 @@
 
 #include "tumble/batch/parallel.hpp"
 #include "tumble/sweep/chunk_file.hpp"
+#include "tumble/sweep/chunk_parts.hpp"
+#include "tumble/sweep/describe.hpp"
 #include "tumble/sweep/drop_chunk.hpp"
 #include "tumble/sweep/plan.hpp"
-#include "tumble/sweep/spec_statistics.hpp"
 
 namespace tumble::sweep {
 namespace {
@@ -110,15 +111,21 @@ Answers answers_of(const Spec& spec, std::vector<Column> columns) {
   return answers;
 }
 
+Answers answers_of(const Spec& spec, std::span<const output::Field> statistics) {
+  return {spec, {}, Statistics::from_fields(layout_of(spec), statistics)};
+}
+
 Answers read_answers(const Chunks& chunks) {
-  Answers answers = begin(chunks.spec());
-  for (std::uint64_t chunk = 0; chunk < num_chunks(chunks.spec()); ++chunk) {
-    std::vector<Column> columns = empty_columns(chunks.spec());
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      columns[k].values = from_bytes(chunks.read(chunk, k), columns[k].is_whole);
+  const Spec& spec = chunks.spec();
+  Answers answers = begin(spec);
+  answers.statistics = merge_statistics(chunks);
+  for (std::uint64_t chunk = 0; chunk < num_chunks(spec); ++chunk) {
+    const Slice slice = slice_of_chunk(spec, chunk);
+    for (std::size_t k = 0; k < answers.columns.size(); ++k) {
+      Column& column = answers.columns[k];
+      const std::vector<double> values = from_bytes(chunks.read(chunk, k_first_column_part + k), column.is_whole);
+      std::copy(values.begin(), values.end(), column.values.begin() + static_cast<std::ptrdiff_t>(slice.first));
     }
-    put(answers, columns, slice_of_chunk(chunks.spec(), chunk));
-    answers.statistics.add(columns);
   }
   return answers;
 }

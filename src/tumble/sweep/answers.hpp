@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "tumble/sweep/columns.hpp"
@@ -25,6 +26,9 @@ Answers simulate_answers(const Spec& spec, int threads, const std::function<void
 
 // Of columns that a sweep with this spec gave. Throws std::invalid_argument naming the column that does not fit.
 Answers answers_of(const Spec& spec, std::vector<Column> columns);
+
+// Of statistics alone, as Statistics::to_fields gives them. Throws as Statistics::from_fields.
+Answers answers_of(const Spec& spec, std::span<const output::Field> statistics);
 
 // Of folders that hold a finished sweep together.
 Answers read_answers(const Chunks& chunks);

@@ -10,16 +10,30 @@ namespace {
 
 constexpr std::array<const char*, 6> k_start_names = {"x", "y", "theta", "vx", "vy", "omega"};
 
-// The values of a slice by the names of the quantities; of constants, one.
+// What the batch takes for a slice; of constants one value.
 class Inputs {
  public:
-  Inputs(const Spec& spec, const Slice& slice) : spec_(spec), values_(spec.quantities.size()) {
+  // At least two instances: an array of one value would hold for all drops, and be refused where a drop alone is
+  // `invalid`.
+  Inputs(const Spec& spec, const Slice& slice)
+      : spec_(spec), count_(std::max(slice.count, std::size_t{2})), values_(spec.quantities.size()) {
     for (std::size_t k = 0; k < values_.size(); ++k) {
-      values_[k].resize(is_swept(spec.quantities[k]) ? slice.count : 1);
+      values_[k].resize(is_swept(spec.quantities[k]) ? count_ : 1);
       fill_values(spec, k, slice.first, values_[k]);
     }
+    q0_ = rows(0);
+    v0_ = rows(3);
   }
 
+  std::size_t count() const { return count_; }
+  batch::DropStarts<double> starts() const { return {q0_, v0_}; }
+  batch::DropParameters parameters() const {
+    return {of("l"), of("m"), of("mu"), of("eps"), of("dt"), of("delta"), of("g"), spec_.columns};
+  }
+
+  std::vector<double>& at(std::size_t quantity) { return values_[quantity]; }
+
+ private:
   const std::vector<double>& of(std::string_view name) const {
     const auto found = std::find_if(spec_.quantities.begin(), spec_.quantities.end(),
                                     [&](const Quantity& quantity) { return quantity.name == name; });
@@ -27,20 +41,19 @@ class Inputs {
   }
 
   // count x 3.
-  std::vector<double> rows(std::size_t first_name, std::size_t count) const {
-    std::vector<double> result(3 * count);
+  std::vector<double> rows(std::size_t first_name) const {
+    std::vector<double> result(3 * count_);
     for (std::size_t j = 0; j < 3; ++j) {
       const std::vector<double>& column = of(k_start_names[first_name + j]);
-      for (std::size_t k = 0; k < count; ++k) result[3 * k + j] = column[column.size() == 1 ? 0 : k];
+      for (std::size_t k = 0; k < count_; ++k) result[3 * k + j] = column[column.size() == 1 ? 0 : k];
     }
     return result;
   }
 
-  std::vector<double>& at(std::size_t quantity) { return values_[quantity]; }
-
- private:
   const Spec& spec_;
+  std::size_t count_;
   std::vector<std::vector<double>> values_;
+  std::vector<double> q0_, v0_;
 };
 
 std::vector<double> collect(std::size_t count, const auto& value_of) {
@@ -52,23 +65,20 @@ std::vector<double> collect(std::size_t count, const auto& value_of) {
 }  // namespace
 
 std::vector<Column> simulate_slice(const Spec& spec, const Slice& slice, const std::function<void()>& watch) {
-  // At least two: an array of one value would hold for all drops, and be refused where a drop alone is `invalid`.
-  const std::size_t count = std::max(slice.count, std::size_t{2});
-  Inputs inputs(spec, {slice.first, count});
-  const std::vector<double> q0 = inputs.rows(0, count);
-  const std::vector<double> v0 = inputs.rows(3, count);
-  const batch::DropParameters parameters = {inputs.of("l"),  inputs.of("m"),     inputs.of("mu"), inputs.of("eps"),
-                                            inputs.of("dt"), inputs.of("delta"), inputs.of("g"),  spec.columns};
+  Inputs inputs(spec, slice);
+  const std::size_t count = inputs.count();
   batch::BatchSettings settings;
   settings.threads = 1;
   settings.measures = spec.measures;
   settings.watch = [&](std::size_t) { watch(); };
   std::vector<double> q(3 * count);
-  std::vector<double> v(3 * count);
   std::vector<batch::DropStatus> status(count);
-  std::vector<std::int32_t> columns(count);
   std::vector<batch::DropMeasures> measures(count);
-  batch::simulate_batch<double>({q0, v0}, parameters, settings, {q, v, status, columns, measures});
+  batch::DropResults<double> wanted;
+  wanted.q = q;
+  wanted.status = status;
+  wanted.measures = measures;
+  batch::simulate_batch(inputs.starts(), inputs.parameters(), settings, wanted);
 
   std::vector<Column> results = empty_columns(spec);
   std::size_t next = 0;
@@ -92,6 +102,20 @@ std::vector<Column> simulate_slice(const Spec& spec, const Slice& slice, const s
   results[next].values = collect(count, [&](std::size_t k) { return static_cast<double>(status[k]); });
   for (Column& column : results) column.values.resize(slice.count);
   return results;
+}
+
+std::vector<double> simulate_path(const Spec& spec, std::uint64_t instance, int every) {
+  const Inputs inputs(spec, {instance, 1});
+  batch::BatchSettings settings;
+  settings.threads = 1;
+  settings.every = every;
+  const std::size_t kept = batch::kept_columns(spec.columns, every);
+  std::vector<double> q(3 * inputs.count() * kept);
+  batch::DropResults<double> wanted;
+  wanted.q = q;
+  batch::simulate_batch(inputs.starts(), inputs.parameters(), settings, wanted);
+  q.resize(kept);
+  return q;
 }
 
 std::vector<Column> empty_columns(const Spec& spec) {

@@ -15,7 +15,10 @@ namespace tumble::sweep {
 // the work.
 std::vector<Column> simulate_slice(const Spec& spec, const Slice& slice, const std::function<void()>& watch);
 
-// The same without values.
+// x [m] of one instance in the columns 0, every, 2 every, ...; NaN behind the last good one.
+std::vector<double> simulate_path(const Spec& spec, std::uint64_t instance, int every);
+
+// The columns of simulate_slice without values.
 std::vector<Column> empty_columns(const Spec& spec);
 
 }  // namespace tumble::sweep

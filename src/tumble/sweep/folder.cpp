@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_spec_name = "spec.toml";
 constexpr const char* k_chunks_name = "chunks";
-constexpr std::array<const char*, 1> k_result_names = {k_columns_name};
+constexpr std::array<const char*, 5> k_result_names = {k_columns_name, k_statistics_name, k_table_name, k_json_name,
+                                                       k_picture_name};
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view why) {
   throw std::invalid_argument(fmt::format("{}: {}", output::path_text(path), why));

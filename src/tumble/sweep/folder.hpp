@@ -11,6 +11,10 @@ namespace tumble::sweep {
 
 // What the folder holds in the end.
 inline constexpr const char* k_columns_name = "columns.npz";
+inline constexpr const char* k_statistics_name = "statistics.npz";
+inline constexpr const char* k_table_name = "summary.csv";
+inline constexpr const char* k_json_name = "summary.json";
+inline constexpr const char* k_picture_name = "overview.png";
 
 class Folder {
  public:

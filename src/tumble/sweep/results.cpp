@@ -10,6 +10,8 @@
 #include "tumble/output/file.hpp"
 #include "tumble/output/table.hpp"
 #include "tumble/sweep/chunk_file.hpp"
+#include "tumble/sweep/chunk_parts.hpp"
+#include "tumble/sweep/describe.hpp"
 #include "tumble/sweep/drop_chunk.hpp"
 #include "tumble/sweep/plan.hpp"
 
@@ -30,12 +32,6 @@ std::string list_of(const std::vector<std::uint64_t>& numbers) {
   const std::span<const std::uint64_t> first(numbers.data(), std::min(numbers.size(), most));
   return fmt::format("{}{}", fmt::join(first, ", "),
                      numbers.size() > most ? fmt::format(" and {} more", numbers.size() - most) : "");
-}
-
-std::size_t index_of(const std::vector<Column>& columns, std::string_view name) {
-  const auto found =
-      std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
-  return static_cast<std::size_t>(found - columns.begin());
 }
 
 // What the columns do not say: the spec, and the quantities that are the same for all.
@@ -60,13 +56,12 @@ std::vector<output::Field> notes_of(const Spec& spec) {
 Chunks::Chunks(std::span<const Folder> folders, int threads)
     : spec_(folders[0].spec()), fingerprint_(folders[0].spec_fingerprint()), paths_(num_chunks(spec_)) {
   require_same(folders);
-  const std::size_t num_parts = empty_columns(spec_).size();
   std::vector<std::string> faults(paths_.size());
   batch::for_each_chunk(paths_.size(), threads, [&](std::size_t chunk, std::size_t) {
     for (const Folder& folder : folders) {
       const std::filesystem::path path = folder.chunk_path(chunk);
       if (!std::filesystem::exists(path)) continue;
-      const auto fault = fault_of_chunk_file(path, {fingerprint_, chunk}, num_parts);
+      const auto fault = fault_of_chunk_file(path, {fingerprint_, chunk}, num_parts(spec_));
       if (!fault) {
         paths_[chunk] = path;
         return;
@@ -92,32 +87,33 @@ std::string Chunks::read(std::uint64_t chunk, std::size_t part) const {
   return read_chunk_part(paths_[chunk], {fingerprint_, chunk}, part);
 }
 
-Counts count(const Chunks& chunks) {
-  const std::vector<Column> columns = empty_columns(chunks.spec());
-  const std::size_t status_part = index_of(columns, "status");
-  const std::size_t face_part = index_of(columns, "face");
-  Counts counts;
+Statistics merge_statistics(const Chunks& chunks) {
+  const Layout layout = layout_of(chunks.spec());
+  Statistics statistics(layout);
   for (std::uint64_t chunk = 0; chunk < num_chunks(chunks.spec()); ++chunk) {
-    const std::vector<double> status = from_bytes(chunks.read(chunk, status_part), true);
-    const std::vector<double> face = from_bytes(chunks.read(chunk, face_part), true);
-    for (std::size_t k = 0; k < status.size(); ++k) {
-      ++counts.instances;
-      ++counts.by_status.at(static_cast<std::size_t>(status[k]));
-      if (face[k] >= 0.0) ++counts.by_face.at(static_cast<std::size_t>(face[k]));
-    }
+    statistics.merge(statistics_from_part(layout, chunks.read(chunk, k_statistics_part)));
   }
-  return counts;
+  return statistics;
 }
 
-void write_columns(const Chunks& chunks, const std::filesystem::path& path, bool overwrite) {
+void write_results(const Chunks& chunks, const Statistics& statistics, const std::filesystem::path& path,
+                   bool overwrite) {
   const Spec& spec = chunks.spec();
   output::Table table;
-  for (const Column& column : empty_columns(spec)) table.columns.push_back({column.name, column.unit, column.is_whole});
-  table.rows = num_instances(spec);
-  table.read = [&](std::size_t column, const std::function<void(std::string_view)>& take) {
-    for (std::uint64_t chunk = 0; chunk < num_chunks(spec); ++chunk) take(chunks.read(chunk, column));
-  };
   table.notes = notes_of(spec);
+  if (spec.keep == Keep::statistics) {
+    for (output::Field& field : statistics.to_fields()) table.notes.push_back(std::move(field));
+  } else {
+    for (const Column& column : empty_columns(spec)) {
+      table.columns.push_back({column.name, column.unit, column.is_whole});
+    }
+    table.rows = num_instances(spec);
+    table.read = [&](std::size_t column, const std::function<void(std::string_view)>& take) {
+      for (std::uint64_t chunk = 0; chunk < num_chunks(spec); ++chunk) {
+        take(chunks.read(chunk, k_first_column_part + column));
+      }
+    };
+  }
   output::write_table(table, path, overwrite);
 }
 

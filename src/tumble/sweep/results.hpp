@@ -1,13 +1,14 @@
 // The finished chunks of a sweep as one.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "tumble/sweep/folder.hpp"
+#include "tumble/sweep/statistics.hpp"
 
 namespace tumble::sweep {
 
@@ -30,15 +31,12 @@ class Chunks {
   std::vector<std::filesystem::path> paths_;
 };
 
-struct Counts {
-  std::uint64_t instances = 0;
-  std::array<std::uint64_t, 3> by_status{};  // see batch::DropStatus
-  std::array<std::uint64_t, 4> by_face{};    // of those that were solved
-};
+// Of all chunks, merged in their order.
+Statistics merge_statistics(const Chunks& chunks);
 
-Counts count(const Chunks& chunks);
-
-// All columns, whole, into a .npz or .h5: see docs/sweep.md. The bytes depend on the spec alone. Throws as write_table.
-void write_columns(const Chunks& chunks, const std::filesystem::path& path, bool overwrite);
+// What is kept, columns or statistics, into a .npz or .h5: see docs/sweep.md. The bytes depend on the spec alone.
+// Throws as output::write_table.
+void write_results(const Chunks& chunks, const Statistics& statistics, const std::filesystem::path& path,
+                   bool overwrite);
 
 }  // namespace tumble::sweep

@@ -4,7 +4,7 @@
 
 #include "tumble/batch/parallel.hpp"
 #include "tumble/sweep/chunk_file.hpp"
-#include "tumble/sweep/drop_chunk.hpp"
+#include "tumble/sweep/chunk_parts.hpp"
 #include "tumble/sweep/plan.hpp"
 
 namespace tumble::sweep {
@@ -23,14 +23,13 @@ enum class Found : std::uint8_t { nothing, good, faulty };
 // Which chunks are complete; what is wrong with the files of others goes into the report.
 std::vector<Found> find_chunks(const Folder& folder, const std::vector<std::uint64_t>& chunks, int threads,
                                const std::function<void()>& watch, RunReport& report) {
-  const std::size_t num_parts = empty_columns(folder.spec()).size();
   std::vector<Found> found(chunks.size(), Found::nothing);
   std::vector<std::string> faults(chunks.size());
   batch::for_each_chunk(chunks.size(), threads, [&](std::size_t k, std::size_t) {
     watch();
     const std::filesystem::path path = folder.chunk_path(chunks[k]);
     if (!std::filesystem::exists(std::filesystem::symlink_status(path))) return;
-    const auto fault = fault_of_chunk_file(path, {folder.spec_fingerprint(), chunks[k]}, num_parts);
+    const auto fault = fault_of_chunk_file(path, {folder.spec_fingerprint(), chunks[k]}, num_parts(folder.spec()));
     found[k] = fault ? Found::faulty : Found::good;
     faults[k] = fault.value_or("");
   });
@@ -42,9 +41,7 @@ std::vector<Found> find_chunks(const Folder& folder, const std::vector<std::uint
 }
 
 void compute_chunk(const Folder& folder, std::uint64_t chunk, const std::function<void()>& watch) {
-  const Slice slice = slice_of_chunk(folder.spec(), chunk);
-  std::vector<std::string> parts;
-  for (const Column& column : simulate_slice(folder.spec(), slice, watch)) parts.push_back(to_bytes(column));
+  const std::vector<std::string> parts = compute_parts(folder.spec(), chunk, watch);
   write_chunk_file(folder.chunk_path(chunk), {folder.spec_fingerprint(), chunk}, parts);
 }
 

@@ -41,11 +41,14 @@ enum class Keep {
   statistics,  // the summary alone
 };
 
+// Instances that are computed at once. Statistics of chunks are those of pieces, merged in order.
+inline constexpr std::uint64_t k_piece = 65536;
+
 struct Spec {
   std::string title;
   std::uint64_t seed = 0;
-  std::uint64_t samples = 1;    // instances of each cell
-  std::uint64_t chunk = 65536;  // instances computed and stored at once
+  std::uint64_t samples = 1;      // instances of each cell
+  std::uint64_t chunk = k_piece;  // instances whose results are stored at once
   Keep keep = Keep::columns;
   std::vector<Quantity> quantities;  // all of the model; those swept first, in the order of the text
   int columns = 150;                 // of each run, the start included

@@ -178,7 +178,8 @@ class SpecReader {
   void read_counts(const Value& root) {
     spec_.seed = count_or(root, "seed", 0, std::numeric_limits<std::int64_t>::max(), spec_.seed);
     spec_.samples = count_or(root, "samples", 1, k_max_instances, spec_.samples);
-    spec_.chunk = count_or(root, "chunk", 1, k_max_chunk, spec_.chunk);
+    const std::uint64_t usual_chunk = spec_.keep == Keep::columns ? k_piece : 16 * k_piece;
+    spec_.chunk = count_or(root, "chunk", 1, k_max_chunk, usual_chunk);
     if (spec_.samples > 1 && std::none_of(spec_.quantities.begin(), spec_.quantities.end(), is_drawn)) {
       root.at("samples").refuse_with(fmt::format(
           "must be 1 where nothing is drawn (uniform, normal, log_uniform), as all would be the same; got {}",

@@ -128,9 +128,12 @@ def load(path: PathLike, *, threads: int = 0) -> Sweep:
     if "spec" not in arrays:
         raise ValueError(f"{path}: is no sweep: it has no array 'spec'")
     text = str(np.asarray(arrays.pop("spec")).reshape(-1)[0])
-    columns = {name: values for name, values in arrays.items() if values.ndim == 1 and values.dtype.kind in "fi"}
+    numbers = {name: values for name, values in arrays.items() if values.dtype.kind in "fi"}
+    statistics = {name: values for name, values in numbers.items() if name.startswith("statistics_")}
     try:
-        return Sweep(sweep_module().from_columns(text, str(path), columns))
+        if statistics:
+            return Sweep(sweep_module().from_statistics(text, str(path), statistics))
+        return Sweep(sweep_module().from_columns(text, str(path), {n: v for n, v in numbers.items() if v.ndim == 1}))
     except ValueError as error:
         message = str(error)
         raise ValueError(message if message.startswith(str(path)) else f"{path}: {message}") from None
