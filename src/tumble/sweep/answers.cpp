@@ -88,26 +88,26 @@ Answers simulate_answers(const Spec& spec, int threads, const std::function<void
 }
 
 Answers answers_of(const Spec& spec, std::vector<Column> columns) {
-  Answers answers{spec, {}, Statistics(layout_of(spec))};
-  const std::vector<Column> expected = empty_columns(spec);
-  for (const Column& column : expected) {
-    const Column* found = find_column(columns, column.name);
-    if (found == nullptr) throw std::invalid_argument(fmt::format("{}: is missing", column.name));
+  Answers answers{spec, empty_columns(spec), Statistics(layout_of(spec))};
+  for (Column& column : answers.columns) {
+    const auto found =
+        std::find_if(columns.begin(), columns.end(), [&](const Column& other) { return other.name == column.name; });
+    if (found == columns.end()) throw std::invalid_argument(fmt::format("{}: is missing", column.name));
     if (found->values.size() != num_instances(spec)) {
       throw std::invalid_argument(fmt::format("{}: must have {} rows, as the spec has instances, has {}", column.name,
                                               num_instances(spec), found->values.size()));
     }
+    column.values = std::move(found->values);
   }
   for (std::uint64_t chunk = 0; chunk < num_chunks(spec); ++chunk) {
     const auto [first, count] = slice_of_chunk(spec, chunk);
-    std::vector<Column> slice = expected;
-    for (Column& column : slice) {
-      const auto start = find_column(columns, column.name)->values.begin() + static_cast<std::ptrdiff_t>(first);
-      column.values.assign(start, start + static_cast<std::ptrdiff_t>(count));
+    std::vector<Column> slice = empty_columns(spec);
+    for (std::size_t k = 0; k < slice.size(); ++k) {
+      const auto start = answers.columns[k].values.begin() + static_cast<std::ptrdiff_t>(first);
+      slice[k].values.assign(start, start + static_cast<std::ptrdiff_t>(count));
     }
     answers.statistics.add(slice);
   }
-  answers.columns = std::move(columns);
   return answers;
 }
 

@@ -24,7 +24,8 @@ struct Answers {
 // std::bad_alloc if the columns do not fit into memory.
 Answers simulate_answers(const Spec& spec, int threads, const std::function<void(std::uint64_t)>& watch = {});
 
-// Of columns that a sweep with this spec gave. Throws std::invalid_argument naming the column that does not fit.
+// Of the columns of a sweep with this spec, in any order; others are left out. Throws std::invalid_argument naming the
+// column that does not fit.
 Answers answers_of(const Spec& spec, std::vector<Column> columns);
 
 // Of statistics alone, as Statistics::to_fields gives them. Throws as Statistics::from_fields.
