@@ -15,6 +15,7 @@
 #include "tumble/batch/parallel.hpp"
 #include "tumble/output/file.hpp"
 #include "tumble/output/table.hpp"
+#include "tumble/scene/limits.hpp"
 #include "tumble/sweep/describe.hpp"
 #include "tumble/sweep/plan.hpp"
 #include "tumble/sweep/results.hpp"
@@ -43,7 +44,10 @@ Targets targets_of(const SweepOptions& options) {
 }
 
 sweep::Spec read_spec(const std::string& file) {
-  return sweep::parse_spec(read_input(file, sweep::k_max_spec_bytes), input_name(file));
+  const fs::path folder = file == "-" ? fs::path(".") : fs::path(file).parent_path();
+  return sweep::parse_spec(read_input(file, sweep::k_max_spec_bytes), input_name(file), [&](const std::string& scene) {
+    return output::read_file(folder / scene, k_max_scene_bytes);
+  });
 }
 
 // Writes the results of a sweep that is complete, and prints what they are. With `file` nothing else is written.

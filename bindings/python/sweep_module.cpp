@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "tumble/output/file.hpp"
+#include "tumble/scene/limits.hpp"
 #include "tumble/sweep/answers.hpp"
 #include "tumble/sweep/describe.hpp"
 #include "tumble/sweep/plan.hpp"
@@ -32,26 +35,47 @@ void tell(const py::object& progress, std::uint64_t done) {
   if (!progress.is_none()) progress(done);
 }
 
-py::dict plan(const std::string& text, const std::string& name) {
-  const sweep::Spec spec = sweep::parse_spec(text, name);
+// `scene` is the text of the scene that is swept (str), or the folder that its file is named from (bytes).
+sweep::Spec parse(const std::string& text, const std::string& name, const py::object& scene) {
+  if (py::isinstance<py::str>(scene)) {
+    return sweep::parse_spec(text, name, [&](const std::string&) { return scene.cast<std::string>(); });
+  }
+  const std::filesystem::path folder = scene.cast<std::string>();
+  try {
+    return sweep::parse_spec(
+        text, name, [&](const std::string& file) { return output::read_file(folder / file, k_max_scene_bytes); });
+  } catch (const std::runtime_error& error) {
+    raise_os_error(error.what());
+  }
+}
+
+py::dict plan(const std::string& text, const std::string& name, const py::object& scene) {
+  const sweep::Spec spec = parse(text, name, scene);
   py::dict plan;
   plan["instances"] = sweep::num_instances(spec);
   plan["chunks"] = sweep::num_chunks(spec);
   return plan;
 }
 
-Answers simulate(const std::string& text, const std::string& name, int threads, const py::object& progress) {
-  const sweep::Spec spec = sweep::parse_spec(text, name);
+Answers simulate(const std::string& text, const std::string& name, const py::object& scene, int threads,
+                 const py::object& progress) {
+  const sweep::Spec spec = parse(text, name, scene);
   std::optional<Answers> answers;
   without_gil(
       [&] { answers = sweep::simulate_answers(spec, threads, [&](std::uint64_t done) { tell(progress, done); }); });
   return std::move(*answers);
 }
 
-// What the shard found and did. After Ctrl-C the chunks that are finished stay, and it is raised.
-py::dict run_shard(const std::string& text, const std::string& name, const std::string& folder, std::uint64_t index,
-                   std::uint64_t count, int threads, bool overwrite, const py::object& progress) {
-  const sweep::Spec spec = sweep::parse_spec(text, name);
+void begin(const std::string& text, const std::string& name, const py::object& scene, const std::string& folder,
+           bool overwrite) {
+  const sweep::Spec spec = parse(text, name, scene);
+  without_gil([&] { sweep::Folder::begin(folder, spec, overwrite); });
+}
+
+// Of a folder that was begun: what the shard found and did. After Ctrl-C the chunks that are finished stay, and it is
+// raised.
+py::dict run_shard(const std::string& folder, std::uint64_t index, std::uint64_t count, int threads,
+                   const py::object& progress) {
   std::exception_ptr raised;
   std::atomic<bool> is_interrupted = false;
   sweep::RunSettings settings;
@@ -67,7 +91,7 @@ py::dict run_shard(const std::string& text, const std::string& name, const std::
     }
   };
   sweep::RunReport report;
-  without_gil([&] { report = sweep::run_sweep(sweep::Folder::begin(folder, spec, overwrite), settings); });
+  without_gil([&] { report = sweep::run_sweep(sweep::Folder::open(folder), settings); });
   if (raised) std::rethrow_exception(raised);
   py::dict result;
   result["chunks"] = report.chunks;
@@ -88,8 +112,9 @@ Answers read(const std::vector<std::string>& paths, int threads) {
 
 using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-Answers from_columns(const std::string& text, const std::string& name, const std::map<std::string, Values>& arrays) {
-  const sweep::Spec spec = sweep::parse_spec(text, name);
+Answers from_columns(const std::string& text, const std::string& name, const py::object& scene,
+                     const std::map<std::string, Values>& arrays) {
+  const sweep::Spec spec = parse(text, name, scene);
   std::vector<sweep::Column> columns;
   for (const auto& [column, values] : arrays) {
     columns.push_back({column, "", std::vector<double>(values.data(), values.data() + values.size())});
@@ -106,9 +131,9 @@ std::vector<T> to_vector(const py::array& array) {
 }
 
 // Of the arrays whose names begin with "statistics_".
-Answers from_statistics(const std::string& text, const std::string& name,
+Answers from_statistics(const std::string& text, const std::string& name, const py::object& scene,
                         const std::map<std::string, py::array>& arrays) {
-  const sweep::Spec spec = sweep::parse_spec(text, name);
+  const sweep::Spec spec = parse(text, name, scene);
   std::vector<output::Field> fields;
   for (const auto& [field, array] : arrays) {
     fields.push_back({field, "", {}, std::vector<double>{}});
@@ -170,17 +195,18 @@ PYBIND11_MODULE(_sweep, module) {
   py::class_<Answers>(module, "Answers")
       .def("__len__", [](const Answers& answers) { return sweep::num_instances(answers.spec); })
       .def_property_readonly("spec", [](const Answers& answers) { return answers.spec.text; })
+      .def_property_readonly("scene", [](const Answers& a) { return a.spec.scene ? a.spec.scene->text : ""; })
       .def_property_readonly("columns", &python::columns_of)
       .def_property_readonly("units", &python::units_of)
       .def_property_readonly("summary_text", [](const Answers& a) { return to_text(python::summary_of(a)); })
       .def_property_readonly("summary_csv", [](const Answers& a) { return to_csv(python::summary_of(a)); })
       .def_property_readonly("summary_json", [](const Answers& a) { return to_json(python::summary_of(a)); })
       .def("draw", &python::draw, "kind"_a, "width"_a, "height"_a, "is_svg"_a);
-  module.def("plan", &python::plan, "text"_a, "name"_a);
-  module.def("simulate", &python::simulate, "text"_a, "name"_a, "threads"_a, "progress"_a);
-  module.def("run_shard", &python::run_shard, "text"_a, "name"_a, "folder"_a, "index"_a, "count"_a, "threads"_a,
-             "overwrite"_a, "progress"_a);
+  module.def("plan", &python::plan, "text"_a, "name"_a, "scene"_a);
+  module.def("simulate", &python::simulate, "text"_a, "name"_a, "scene"_a, "threads"_a, "progress"_a);
+  module.def("begin", &python::begin, "text"_a, "name"_a, "scene"_a, "folder"_a, "overwrite"_a);
+  module.def("run_shard", &python::run_shard, "folder"_a, "index"_a, "count"_a, "threads"_a, "progress"_a);
   module.def("read", &python::read, "folders"_a, "threads"_a);
-  module.def("from_columns", &python::from_columns, "text"_a, "name"_a, "columns"_a);
-  module.def("from_statistics", &python::from_statistics, "text"_a, "name"_a, "arrays"_a);
+  module.def("from_columns", &python::from_columns, "text"_a, "name"_a, "scene"_a, "columns"_a);
+  module.def("from_statistics", &python::from_statistics, "text"_a, "name"_a, "scene"_a, "arrays"_a);
 }

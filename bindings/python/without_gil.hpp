@@ -8,6 +8,11 @@
 
 namespace tumble::python {
 
+[[noreturn]] inline void raise_os_error(const std::string& text) {
+  PyErr_SetString(PyExc_OSError, text.c_str());
+  throw pybind11::error_already_set();
+}
+
 // Calls work(), which must not touch Python. Raises ValueError for what the caller can mend (std::invalid_argument),
 // OSError for what the machine refuses (std::runtime_error).
 template <class Work>
@@ -21,9 +26,7 @@ void without_gil(Work work) {
       failure = error.what();
     }
   }
-  if (failure.empty()) return;
-  PyErr_SetString(PyExc_OSError, failure.c_str());
-  throw pybind11::error_already_set();
+  if (!failure.empty()) raise_os_error(failure);
 }
 
 }  // namespace tumble::python

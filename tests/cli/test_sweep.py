@@ -12,6 +12,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+import tumble as tumble_package
 from program import PROGRAM, refuse, succeed, tumble
 from tumble import drop
 
@@ -286,3 +287,97 @@ def test_the_memory_of_statistics_does_not_grow_with_the_sweep(folder: Path) -> 
         return int(subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout)
 
     assert peak(160_000) < peak(20_000) + 20_000  # kB; a column of the 1 400 000 more has 11 MB
+
+
+BOX = """
+tumble = 1
+step_size = 0.005
+duration = 0.8
+[materials.wood]
+[[bodies]]
+name = "floor"
+kind = "fixed"
+shape = { half_plane = [0, 1] }
+material = "wood"
+[[bodies]]
+shape = { disc = 0.1 }
+mass = 0.1
+position = [0.5, 0.3]
+material = "wood"
+[[bodies]]
+name = "box"
+shape = { square = 0.2 }
+mass = 0.3
+position = [0, 0.7]
+velocity = [0.1, -0.2]
+material = "wood"
+"""
+SCENE_SPEC = """
+sweep = 1
+scene = "box.toml"
+samples = 100
+chunk = 30
+[bodies.box]
+theta = { uniform = ["0 deg", "360 deg"] }
+mass = { list = [0.2, 0.4] }
+[bodies.body1]
+vx = -1
+[materials.wood]
+friction = { uniform = [0, 1] }
+restitution = { normal = [0.7, 0.3] }
+[measures]
+body = "box"
+region = [-1, 0.5]
+"""
+
+
+def test_a_scene_is_swept_as_rollout_does(folder: Path) -> None:
+    (folder / "boxes").mkdir()
+    (folder / "boxes/box.toml").write_text(BOX)
+    (folder / "boxes/boxes.toml").write_text(SCENE_SPEC)
+    succeed("sweep", "boxes/boxes.toml", "-o", "all", cwd=folder)
+    data = np.load(folder / "all/columns.npz")
+    assert list(data["bodies.box.mass"]) == [0.2] * 100 + [0.4] * 100
+    scene = tumble_package.Scene.parse(BOX)
+    theta = data["bodies.box.theta"]
+    poses = np.column_stack([np.zeros(200), np.full(200, 0.7), theta])
+    result = tumble_package.rollout(
+        scene, {"box": poses}, {1: (-1, 0, 0)}, mass={"box": data["bodies.box.mass"]},
+        friction={"wood": data["materials.wood.friction"]}, restitution={"wood": data["materials.wood.restitution"]},
+        region=(-1, 0.5), rest_speed=1e-3,
+    )
+    is_invalid = result.status == "bad_input"
+    assert 0 < is_invalid.sum() < 100 and np.array_equal(data["status"] == 2, is_invalid)
+    assert np.array_equal(data["final_x"], np.where(is_invalid, np.nan, result["box"].x), equal_nan=True)
+    assert np.array_equal(data["escape_time"], result.escape_time, equal_nan=True)
+    assert np.array_equal(data["impacts"][~is_invalid], result.impacts[~is_invalid])
+    turns = np.round(result["box"].angle[~is_invalid] / (np.pi / 2)).astype(int) % 4
+    assert np.array_equal(data["face"][~is_invalid], turns)
+
+    for shard in (2, 1):
+        succeed("sweep", "boxes/boxes.toml", "--shard", f"{shard}/2", "-o", f"part{shard}", cwd=folder)
+    succeed("sweep", "merge", "part1", "part2", "-o", "merged", cwd=folder)
+    for name in ("columns.npz", "summary.csv", "overview.png"):
+        assert (folder / "merged" / name).read_bytes() == (folder / "all" / name).read_bytes()
+    (folder / "boxes/box.toml").write_text(BOX.replace("0.005", "0.004"))
+    assert "holds another sweep" in refuse("sweep", "boxes/boxes.toml", "-o", "all", cwd=folder)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "error"),
+    [
+        ("bodies.box]", "bodies.bx]", "boxes.toml:6:1: bodies.bx: must be a body of the scene that moves, got 'bx'; did you mean 'box'?"),
+        ("bodies.box]", "bodies.floor]", "boxes.toml:6:1: bodies.floor: must be a body of the scene that moves, got 'floor'; allowed are body1, box"),
+        ("materials.wood", "materials.woud", "boxes.toml:11:1: materials.woud: must be a material of the scene, got 'woud'; did you mean 'wood'?"),
+        ("theta =", "angle =", "boxes.toml:7:1: bodies.box.'angle': unknown key; allowed are x, y, theta, vx, vy, omega, mass, moment_of_inertia"),
+        ("mass = { list = [0.2,", "mass = { list = [0,", "boxes.toml:8:18: bodies.box.mass.list[0]: must be in [1e-60, 1e+60] kg, got 0"),
+        ('body = "box"', 'body = "boxy"', "boxes.toml:15:8: measures.body: must be a body of the scene that moves, got 'boxy'; did you mean 'box'?"),
+        ("[bodies.box]", "[start]", "boxes.toml:6:2: 'start': unknown key; allowed are sweep, title, seed, samples, chunk, keep, measures, scene, bodies, materials, gravity"),
+        ('"box.toml"', '"none.toml"', "cannot read none.toml: No such file or directory"),
+    ],
+)  # fmt: skip
+def test_errors_in_the_sweep_of_a_scene(folder: Path, before: str, after: str, error: str) -> None:
+    (folder / "box.toml").write_text(BOX)
+    (folder / "boxes.toml").write_text(SCENE_SPEC.replace(before, after))
+    assert refuse("sweep", "boxes.toml", cwd=folder) == f"tumble: {error}\n"
+    assert not (folder / "boxes.sweep").exists()

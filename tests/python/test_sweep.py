@@ -288,6 +288,27 @@ def test_command_line_and_python_agree(swept, tmp_path):
     assert_same(sweep_package.load(tmp_path / "folder"), swept)
 
 
+def test_scenes_are_swept_too(tmp_path, monkeypatch):
+    (tmp_path / "drop.toml").write_text((Path(__file__).parents[2] / "scenes" / "rocking_block.toml").read_text())
+    spec = {
+        "scene": "drop.toml",
+        "samples": 6,
+        "chunk": 4,
+        "bodies": {"block": {"theta": {"uniform": [0.0, 0.2]}, "mass": np.array([1.0, 2.0])}},
+    }
+    monkeypatch.chdir(tmp_path)
+    sweep = sweep_package.run(spec)
+    assert len(sweep) == 12
+    assert_same(sweep_package.run(spec, "folder"), sweep)
+    sweep.save("sweep.npz")
+    os.unlink("drop.toml")
+    assert_same(sweep_package.load("sweep.npz"), sweep)
+    assert_same(sweep_package.load("folder"), sweep)
+    sweep.plot("plot.png")
+    with pytest.raises((OSError, ValueError), match="drop.toml"):
+        sweep_package.run(spec)
+
+
 def test_a_dask_cluster_gives_the_same(swept, tmp_path):
     distributed = pytest.importorskip("distributed")
     from tumble.sweep import dask

@@ -18,13 +18,12 @@ bool is_outside(const drop::State& state, const MeasureSettings& settings) {
   return state.q[0] < settings.x_min || state.q[0] > settings.x_max;
 }
 
-// Side of the square that is up: the number of quarter turns next to theta, modulo 4.
+}  // namespace
+
 std::int32_t face_up(double theta) {
   const double quarters = std::floor(theta * 0x1.45f306dc9c883p-1 + 0.5);
   return static_cast<std::int32_t>(quarters - 4.0 * std::floor(0.25 * quarters));
 }
-
-}  // namespace
 
 NotedColumns note_start(const drop::State& start, const drop::Parameters& parameters, const MeasureSettings& settings) {
   NotedColumns noted;

@@ -26,6 +26,9 @@ void note_column(NotedColumns& noted, int column, const drop::State& state, doub
 DropMeasures drop_measures(const NotedColumns& noted, const drop::State& start, const drop::State& last, int columns,
                            DropStatus status, const drop::Parameters& parameters);
 
+// Side of a body that is up, by the number of quarter turns next to theta [rad], modulo 4: see DropMeasures::face.
+std::int32_t face_up(double theta);
+
 // Of a drop that was not computed: NaN, 0 and -1.
 DropMeasures no_measures();
 

@@ -13,8 +13,8 @@
 #include "tumble/sweep/chunk_file.hpp"
 #include "tumble/sweep/chunk_parts.hpp"
 #include "tumble/sweep/describe.hpp"
-#include "tumble/sweep/drop_chunk.hpp"
 #include "tumble/sweep/plan.hpp"
+#include "tumble/sweep/slice.hpp"
 
 namespace tumble::sweep {
 namespace {
@@ -72,16 +72,19 @@ Answers simulate_answers(const Spec& spec, int threads, const std::function<void
       throw;
     }
   };
-  const auto work = [&](std::size_t chunk, std::size_t) {
-    const Slice slice = slice_of_chunk(spec, chunk);
-    const std::vector<Column> columns = simulate_slice(spec, slice, [&] {
+  const auto columns_of = [&](const Slice& piece) {
+    std::vector<Column> columns = simulate_slice(spec, piece, [&] {
       if (is_ended) throw Ended{};
     });
-    put(answers, columns, slice);
-    Statistics statistics(answers.statistics.layout());
-    statistics.add(columns);
-    fold.add(chunk, std::move(statistics));
-    done += slice.count;
+    put(answers, columns, piece);
+    done += piece.count;
+    return columns;
+  };
+  const auto work = [&](std::size_t chunk, std::size_t) {
+    try {
+      fold.add(chunk, add_up_chunk(spec, chunk, columns_of));
+    } catch (const Ended&) {  // what `watch` threw comes out
+    }
   };
   batch::for_each_chunk(num_chunks(spec), threads, work, tell);
   return answers;
@@ -100,13 +103,14 @@ Answers answers_of(const Spec& spec, std::vector<Column> columns) {
     column.values = std::move(found->values);
   }
   for (std::uint64_t chunk = 0; chunk < num_chunks(spec); ++chunk) {
-    const auto [first, count] = slice_of_chunk(spec, chunk);
-    std::vector<Column> slice = empty_columns(spec);
-    for (std::size_t k = 0; k < slice.size(); ++k) {
-      const auto start = answers.columns[k].values.begin() + static_cast<std::ptrdiff_t>(first);
-      slice[k].values.assign(start, start + static_cast<std::ptrdiff_t>(count));
-    }
-    answers.statistics.add(slice);
+    answers.statistics.merge(add_up_chunk(spec, chunk, [&](const Slice& piece) {
+      std::vector<Column> slice = empty_columns(spec);
+      for (std::size_t k = 0; k < slice.size(); ++k) {
+        const auto start = answers.columns[k].values.begin() + static_cast<std::ptrdiff_t>(piece.first);
+        slice[k].values.assign(start, start + static_cast<std::ptrdiff_t>(piece.count));
+      }
+      return slice;
+    }));
   }
   return answers;
 }

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "tumble/sweep/drop_chunk.hpp"
 #include "tumble/sweep/plan.hpp"
+#include "tumble/sweep/slice.hpp"
 
 namespace tumble::sweep {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr double k_shown_deviations = 3.0;
 
 CellAxis cells_of(const Quantity& quantity) {
-  const auto& [name, unit, source, draw] = quantity;
+  const auto& [name, unit, source, draw, target] = quantity;
   if (const auto* grid = std::get_if<Grid>(&source)) return cells_of_values({name, unit, grid->values});
   if (const auto* normal = std::get_if<Normal>(&source)) {
     const double reach = k_shown_deviations * normal->deviation;
@@ -88,18 +88,25 @@ Facts facts_of(const Spec& spec) {
 std::optional<Fan> fan_of(const Spec& spec) {
   constexpr std::uint64_t most_lines = 200;
   constexpr int most_times = 400;
-  constexpr std::uint64_t most_columns = 20'000'000;  // of all lines: a second
-  const auto dt = std::find_if(spec.quantities.begin(), spec.quantities.end(),
-                               [](const Quantity& quantity) { return quantity.name == "dt"; });
-  if (is_swept(*dt)) return std::nullopt;
-  const double step = std::get<Constant>(dt->source).value;
-  const auto columns = static_cast<std::uint64_t>(spec.columns);
-  const std::uint64_t lines = std::min({num_instances(spec), most_lines, most_columns / columns + 1});
-  const int every = (spec.columns - 1) / most_times + 1;
+  constexpr double most_steps = 20e6;      // of drops, in all: a second
+  constexpr double most_body_steps = 2e5;  // of scenes: seconds
+  for (const Quantity& quantity : spec.quantities) {
+    if (quantity.name == "dt" && is_swept(quantity)) return std::nullopt;
+  }
+  double steps = spec.columns - 1;
+  double affordable = most_steps / steps;
+  if (spec.scene) {
+    const Scene& scene = spec.scene->scene;
+    steps = scene.duration / scene.step_size;
+    affordable = most_body_steps / (steps * static_cast<double>(scene.bodies.size()));
+  }
+  const std::uint64_t lines = std::min({num_instances(spec), most_lines, static_cast<std::uint64_t>(affordable) + 1});
+  const int every = static_cast<int>(steps) / most_times + 1;
   Fan fan{"x", "m", {}, {}};
-  for (int column = 0; column < spec.columns; column += every) fan.time.push_back(column * step);
   for (std::uint64_t k = 0; k < lines; ++k) {
-    fan.lines.push_back(simulate_path(spec, num_instances(spec) / lines * k, every));
+    Path path = simulate_path(spec, num_instances(spec) / lines * k, every);
+    fan.time = std::move(path.time);
+    fan.lines.push_back(std::move(path.x));
   }
   return fan;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "tumble/output/file.hpp"
+#include "tumble/scene/limits.hpp"
 
 namespace tumble::sweep {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* k_spec_name = "spec.toml";
+constexpr const char* k_scene_name = "scene.toml";
 constexpr const char* k_chunks_name = "chunks";
 constexpr std::array<const char*, 5> k_result_names = {k_columns_name, k_statistics_name, k_table_name, k_json_name,
                                                        k_picture_name};
@@ -30,14 +32,27 @@ void make_folder(const fs::path& path) {
 
 bool is_unused(const fs::path& path) {
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-    if (!entry.path().filename().string().starts_with(".tumble-")) return false;  // a file under construction
+    const std::string name = entry.path().filename().string();
+    // What another process, or one that was killed, has begun with.
+    if (name != k_scene_name && !name.starts_with(".tumble-")) return false;
   }
   return true;
 }
 
 Spec read_spec(const fs::path& path) {
   const fs::path file = path / k_spec_name;
-  return parse_spec(output::read_file(file, k_max_spec_bytes), output::path_text(file));
+  return parse_spec(output::read_file(file, k_max_spec_bytes), output::path_text(file),
+                    [&](const std::string&) { return output::read_file(path / k_scene_name, k_max_scene_bytes); });
+}
+
+// spec.toml last: without it the folder is not that of a sweep.
+void write_spec(const fs::path& path, const Spec& spec, bool overwrite) {
+  try {
+    if (spec.scene) output::write_file_atomically(path / k_scene_name, spec.scene->text, true);
+    output::write_file_atomically(path / k_spec_name, spec.text, overwrite);
+  } catch (const std::invalid_argument&) {
+    if (!fs::exists(path / k_spec_name)) throw;  // else another shard was first
+  }
 }
 
 }  // namespace
@@ -51,17 +66,13 @@ Folder Folder::begin(const fs::path& path, const Spec& spec, bool overwrite) {
   const fs::path file = path / k_spec_name;
   if (!fs::exists(file)) {
     if (!is_unused(path)) refuse(path, "is a folder with other things than a sweep in it");
-    try {
-      output::write_file_atomically(file, spec.text, false);
-    } catch (const std::invalid_argument&) {
-      if (!fs::exists(file)) throw;  // else another shard was first
-    }
+    write_spec(path, spec, false);
   }
   Folder folder(path, spec);
   if (fingerprint(read_spec(path)) != folder.fingerprint_) {
     if (!overwrite) refuse(path, "holds another sweep: its spec.toml gives other results. --force empties the folder");
     folder.remove_results();
-    output::write_file_atomically(file, spec.text, true);
+    write_spec(path, spec, true);
   }
   make_folder(path / k_chunks_name);
   return folder;
@@ -83,6 +94,7 @@ void Folder::remove_results() const {
 
 void Folder::remove() const {
   remove_results();
+  fs::remove(path_ / k_scene_name);
   fs::remove(path_ / k_spec_name);
   std::error_code is_not_empty;
   fs::remove(path_, is_not_empty);

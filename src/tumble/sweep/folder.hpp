@@ -1,5 +1,5 @@
-// The folder that a sweep works in: spec.toml, and in chunks/ a file for each chunk that is finished. It may be used by
-// several processes at once, and each file in it appears only when it is complete.
+// The folder that a sweep works in: spec.toml, scene.toml if it sweeps a scene, and in chunks/ a file for each chunk
+// that is finished. It may be used by several processes at once, and each file in it appears only when it is complete.
 #pragma once
 
 #include <cstdint>

@@ -62,7 +62,7 @@ Slice slice_of_chunk(const Spec& spec, std::uint64_t chunk) {
 
 std::vector<Axis> axes_of(const Spec& spec) {
   std::vector<Axis> axes;
-  for (const auto& [name, unit, source, draw] : spec.quantities) {
+  for (const auto& [name, unit, source, draw, target] : spec.quantities) {
     if (const auto* grid = std::get_if<Grid>(&source)) axes.push_back({name, unit, grid->values});
   }
   return axes;

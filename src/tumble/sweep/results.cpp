@@ -12,8 +12,8 @@
 #include "tumble/sweep/chunk_file.hpp"
 #include "tumble/sweep/chunk_parts.hpp"
 #include "tumble/sweep/describe.hpp"
-#include "tumble/sweep/drop_chunk.hpp"
 #include "tumble/sweep/plan.hpp"
+#include "tumble/sweep/slice.hpp"
 
 namespace tumble::sweep {
 namespace {
@@ -37,12 +37,16 @@ std::string list_of(const std::vector<std::uint64_t>& numbers) {
 // What the columns do not say: the spec, and the quantities that are the same for all.
 std::vector<output::Field> notes_of(const Spec& spec) {
   std::vector<output::Field> notes = {{"spec", "", {}, std::vector<std::string>{spec.text}}};
-  for (const auto& [name, unit, source, draw] : spec.quantities) {
+  for (const auto& [name, unit, source, draw, target] : spec.quantities) {
     if (const auto* constant = std::get_if<Constant>(&source)) {
       notes.push_back({name, unit, {}, std::vector<double>{constant->value}});
     }
   }
-  notes.push_back({"steps", "", {}, std::vector<std::int64_t>{spec.columns - 1}});
+  if (spec.scene) {
+    notes.push_back({"scene", "", {}, std::vector<std::string>{spec.scene->text}});
+  } else {
+    notes.push_back({"steps", "", {}, std::vector<std::int64_t>{spec.columns - 1}});
+  }
   notes.push_back({"status_names", "", {3}, std::vector<std::string>{"solved", "numerical", "invalid"}});
   std::vector<std::string> axes;
   for (const Axis& axis : axes_of(spec)) axes.push_back(axis.name);

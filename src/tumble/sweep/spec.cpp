@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tumble/scene/scene_toml.hpp"
+
 namespace tumble::sweep {
 namespace {
 
@@ -27,6 +29,7 @@ std::uint64_t fingerprint(const Spec& spec) {
   std::string text = fmt::format("tumble {}; seed {}; samples {}; chunk {}; keep {}; columns {}; {:a} {:a} {:a}\n",
                                  TUMBLE_VERSION, spec.seed, spec.samples, spec.chunk, static_cast<int>(spec.keep),
                                  spec.columns, rest_speed, x_min, x_max);
+  if (spec.scene) text += fmt::format("scene, body {}\n{}", spec.scene->body, to_toml(spec.scene->scene));
   for (const Quantity& quantity : spec.quantities) {
     text += fmt::format("{} {} {}\n", quantity.name, quantity.draw, std::visit(SourceText{}, quantity.source));
   }

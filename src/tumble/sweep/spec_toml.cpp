@@ -4,6 +4,7 @@
 #include <span>
 
 #include "tumble/drop/parameters.hpp"
+#include "tumble/scene/scene_toml.hpp"
 #include "tumble/scene/toml_reader.hpp"
 #include "tumble/sweep/spec.hpp"
 
@@ -33,6 +34,30 @@ constexpr std::array<Known, 7> k_parameters = {{{"l", k_size_range, k_usual.l},
                                                 {"dt", k_step_size_range, k_usual.dt},
                                                 {"delta", k_rounding_range, k_usual.delta},
                                                 {"g", k_gravity_range, k_usual.g}}};
+
+// A quantity of a scene.
+struct KnownTarget {
+  std::string_view name;
+  Range range;
+  SceneTarget target;
+};
+using Kind = SceneTarget::Kind;
+constexpr std::array<KnownTarget, 8> k_body_targets = {
+    {{"x", k_coordinate_range, {Kind::pose, 0, 0}},
+     {"y", k_coordinate_range, {Kind::pose, 0, 1}},
+     {"theta", k_angle_range, {Kind::pose, 0, 2}},
+     {"vx", k_speed_range, {Kind::velocity, 0, 0}},
+     {"vy", k_speed_range, {Kind::velocity, 0, 1}},
+     {"omega", k_angular_velocity_range, {Kind::velocity, 0, 2}},
+     {"mass", k_mass_range, {Kind::varied, 0, 0, batch::Quantity::mass}},
+     {"moment_of_inertia", k_inertia_range, {Kind::varied, 0, 0, batch::Quantity::moment_of_inertia}}}};
+constexpr std::array<KnownTarget, 3> k_material_targets = {
+    {{"friction", k_friction_range, {Kind::varied, 0, 0, batch::Quantity::friction}},
+     {"static_friction", k_friction_range, {Kind::varied, 0, 0, batch::Quantity::static_friction}},
+     {"restitution", k_restitution_range, {Kind::varied, 0, 0, batch::Quantity::restitution}}}};
+constexpr std::array<KnownTarget, 2> k_gravity_targets = {
+    {{"x", k_gravity_range, {Kind::varied, 0, 0, batch::Quantity::gravity_x}},
+     {"y", k_gravity_range, {Kind::varied, 0, 0, batch::Quantity::gravity_y}}}};
 
 double read_number(const Value& value, const Range& range) {
   return range.unit == k_angle_range.unit ? value.angle() : value.number(range);
@@ -96,16 +121,28 @@ bool is_drawn(const Quantity& quantity) {
 
 class SpecReader {
  public:
-  Spec read(const Value& root) {
-    root.allow_keys({"sweep", "title", "seed", "samples", "chunk", "keep", "start", "parameters", "measures"});
+  Spec read(const Value& root, const ReadScene& read_scene) {
+    const std::optional<Value> file = root.find("scene");
+    if (file) {
+      root.allow_keys({"sweep", "title", "seed", "samples", "chunk", "keep", "measures", "scene", "bodies", "materials",
+                       "gravity"});
+    } else {
+      root.allow_keys(
+          {"sweep", "title", "seed", "samples", "chunk", "keep", "measures", "scene", "start", "parameters"});
+    }
     root.at("sweep").integer(1, 1);
     spec_.title = root.text_or("title", "");
-    for (const auto& [key, value] : root.entries()) {
-      if (key == "start") read_quantities(value, k_start, 0);
-      if (key == "parameters") read_quantities(value, k_parameters, k_start.size());
+    if (file) {
+      read_model(*file, read_scene);
+      read_scene_quantities(root);
+    } else {
+      for (const auto& [key, value] : root.entries()) {
+        if (key == "start") read_quantities(value, k_start, 0);
+        if (key == "parameters") read_quantities(value, k_parameters, k_start.size());
+      }
+      add_usual(k_start, 0);
+      add_usual(k_parameters, k_start.size());
     }
-    add_usual(k_start, 0);
-    add_usual(k_parameters, k_start.size());
     // Where constants stand in the text makes no difference.
     std::stable_sort(spec_.quantities.begin(), spec_.quantities.end(), [](const Quantity& a, const Quantity& b) {
       return is_constant(a) != is_constant(b) ? is_constant(b) : is_constant(a) && a.draw < b.draw;
@@ -148,8 +185,90 @@ class SpecReader {
     spec_.quantities.push_back({std::string(known.name), std::string(known.range.unit), std::move(source), draw});
   }
 
+  void read_model(const Value& file, const ReadScene& read_scene) {
+    if (!read_scene) file.refuse_with("scenes cannot be read here");
+    const std::string name = file.text();
+    SceneModel model;
+    model.text = read_scene(name);
+    model.scene = parse_scene(model.text, name);
+    bodies_ = batch::movable_bodies(model.scene);
+    if (bodies_.empty()) file.refuse_with("must hold a body that moves");
+    spec_.measures.rest_speed = batch::RolloutSettings{}.rest_speed;
+    spec_.scene = std::move(model);
+  }
+
+  // The index into bodies_ of that with this label.
+  int body_index(const Value& place, const std::string& label) const {
+    const std::vector<std::string> labels = body_labels(spec_.scene->scene);
+    std::vector<std::string_view> known;
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      const std::string& name = labels[static_cast<std::size_t>(bodies_[k])];
+      if (name == label) return static_cast<int>(k);
+      known.push_back(name);
+    }
+    place.refuse_with(
+        fmt::format("must be a body of the scene that moves, got {}{}", shown(label), suggestion(label, known)));
+  }
+
+  void read_scene_quantities(const Value& root) {
+    for (const auto& [table, value] : root.entries()) {
+      if (table == "bodies") {
+        for (const auto& [name, body] : value.entries()) read_body(body, name);
+      } else if (table == "materials") {
+        for (const auto& [name, material] : value.entries()) read_material(material, name);
+      } else if (table == "gravity") {
+        value.allow_keys({"x", "y"});
+        read_targets(value, "gravity", k_gravity_targets, 0, 0);
+      }
+    }
+  }
+
+  void read_body(const Value& table, const std::string& name) {
+    table.allow_keys({"x", "y", "theta", "vx", "vy", "omega", "mass", "moment_of_inertia"});
+    const int index = body_index(table, name);
+    const int body = bodies_[static_cast<std::size_t>(index)];
+    for (const std::string_view key : {"mass", "moment_of_inertia"}) {
+      const std::optional<Value> value = table.find(key);
+      if (value && spec_.scene->scene.bodies[static_cast<std::size_t>(body)].kind != BodyKind::dynamic) {
+        value->refuse_with("only dynamic bodies have one");
+      }
+    }
+    read_targets(table, "bodies." + name, k_body_targets, index, body);
+  }
+
+  void read_material(const Value& table, const std::string& name) {
+    table.allow_keys({"friction", "static_friction", "restitution"});
+    std::vector<std::string_view> known;
+    const std::vector<Material>& materials = spec_.scene->scene.materials;
+    for (std::size_t k = 0; k < materials.size(); ++k) {
+      if (materials[k].name == name) {
+        read_targets(table, "materials." + name, k_material_targets, 0, static_cast<int>(k));
+        return;
+      }
+      known.push_back(materials[k].name);
+    }
+    table.refuse_with(fmt::format("must be a material of the scene, got {}{}", shown(name), suggestion(name, known)));
+  }
+
+  // `movable` is the index of start values, `index` that of what is varied.
+  void read_targets(const Value& table, const std::string& prefix, std::span<const KnownTarget> known, int movable,
+                    int index) {
+    for (const auto& [key, value] : table.entries()) {
+      const auto found = std::find_if(known.begin(), known.end(), [&](const KnownTarget& k) { return k.name == key; });
+      SceneTarget target = found->target;
+      target.index = target.kind == Kind::varied ? index : movable;
+      spec_.quantities.push_back({prefix + "." + key, std::string(found->range.unit), read_source(value, found->range),
+                                  spec_.quantities.size(), target});
+    }
+  }
+
   void read_measures(const Value& table) {
-    table.allow_keys({"rest_speed", "region"});
+    if (spec_.scene) {
+      table.allow_keys({"rest_speed", "region", "body"});
+      if (const auto body = table.find("body")) spec_.scene->body = body_index(*body, body->text());
+    } else {
+      table.allow_keys({"rest_speed", "region"});
+    }
     spec_.measures.rest_speed =
         table.number_or("rest_speed", {0.0, k_speed_range.high, k_speed_range.unit}, spec_.measures.rest_speed);
     const std::optional<Value> region = table.find("region");
@@ -178,7 +297,8 @@ class SpecReader {
   void read_counts(const Value& root) {
     spec_.seed = count_or(root, "seed", 0, std::numeric_limits<std::int64_t>::max(), spec_.seed);
     spec_.samples = count_or(root, "samples", 1, k_max_instances, spec_.samples);
-    const std::uint64_t usual_chunk = spec_.keep == Keep::columns ? k_piece : 16 * k_piece;
+    const std::uint64_t piece = spec_.scene ? k_scene_piece : k_piece;
+    const std::uint64_t usual_chunk = spec_.keep == Keep::columns || spec_.scene ? piece : 16 * piece;
     spec_.chunk = count_or(root, "chunk", 1, k_max_chunk, usual_chunk);
     if (spec_.samples > 1 && std::none_of(spec_.quantities.begin(), spec_.quantities.end(), is_drawn)) {
       root.at("samples").refuse_with(fmt::format(
@@ -207,13 +327,14 @@ class SpecReader {
   }
 
   Spec spec_;
+  std::vector<int> bodies_;  // movable ones, indices into the scene
 };
 
 }  // namespace
 
-Spec parse_spec(std::string_view text, const std::string& name) {
+Spec parse_spec(std::string_view text, const std::string& name, const ReadScene& read_scene) {
   const toml::table root = toml_reading::parse_table(text, name);
-  Spec spec = SpecReader().read(Value(root, "", name));
+  Spec spec = SpecReader().read(Value(root, "", name), read_scene);
   spec.text = text;
   return spec;
 }

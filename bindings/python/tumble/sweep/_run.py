@@ -51,12 +51,12 @@ def run(
     KeyboardInterrupt
         At Ctrl-C, within a second.
     """
-    text, name = read_spec(spec)
     if folder is not None:
         run_shard(spec, folder, threads=threads, overwrite=overwrite, progress=progress)
         return load(folder, threads=threads)
-    with _Progress(progress, sweep_module().plan(text, name)["instances"]) as told:
-        return Sweep(sweep_module().simulate(text, name, _threads(threads), told))
+    read = read_spec(spec)
+    with _Progress(progress, sweep_module().plan(*read)["instances"]) as told:
+        return Sweep(sweep_module().simulate(*read, _threads(threads), told))
 
 
 def run_shard(
@@ -82,12 +82,11 @@ def run_shard(
     """
     if not (isinstance(count, (int, np.integer)) and isinstance(index, (int, np.integer)) and 1 <= index <= count):
         raise ValueError(f"shard: must be a whole number of 1 to {count!r}, got {index!r}")
-    text, name = read_spec(spec)
-    with _Progress(progress, sweep_module().plan(text, name)["instances"] // int(count)) as told:
-        report = sweep_module().run_shard(
-            text, name, os.fsencode(folder), int(index) - 1, int(count), _threads(threads), bool(overwrite), told
-        )
-    return dict(report)
+    read = read_spec(spec)
+    cores = _threads(threads)
+    sweep_module().begin(*read, os.fsencode(folder), bool(overwrite))
+    with _Progress(progress, sweep_module().plan(*read)["instances"] // int(count)) as told:
+        return dict(sweep_module().run_shard(os.fsencode(folder), int(index) - 1, int(count), cores, told))
 
 
 def merge(folders: Sequence[PathLike], *, threads: int = 0) -> Sweep:
@@ -127,16 +126,22 @@ def load(path: PathLike, *, threads: int = 0) -> Sweep:
     arrays = _read_npz(path) if ending == ".npz" else _read_h5(path)
     if "spec" not in arrays:
         raise ValueError(f"{path}: is no sweep: it has no array 'spec'")
-    text = str(np.asarray(arrays.pop("spec")).reshape(-1)[0])
+    text, scene = (_text(arrays.pop(name, "")) for name in ("spec", "scene"))
     numbers = {name: values for name, values in arrays.items() if values.dtype.kind in "fi"}
     statistics = {name: values for name, values in numbers.items() if name.startswith("statistics_")}
     try:
         if statistics:
-            return Sweep(sweep_module().from_statistics(text, str(path), statistics))
-        return Sweep(sweep_module().from_columns(text, str(path), {n: v for n, v in numbers.items() if v.ndim == 1}))
+            return Sweep(sweep_module().from_statistics(text, str(path), scene, statistics))
+        columns = {name: values for name, values in numbers.items() if values.ndim == 1}
+        return Sweep(sweep_module().from_columns(text, str(path), scene, columns))
     except ValueError as error:
         message = str(error)
         raise ValueError(message if message.startswith(str(path)) else f"{path}: {message}") from None
+
+
+def _text(value: Any) -> str:
+    first = np.asarray(value).reshape(-1)[0]
+    return first.decode() if isinstance(first, bytes) else str(first)
 
 
 def _read_npz(path: Path) -> dict[str, Any]:
@@ -150,10 +155,7 @@ def _read_h5(path: Path) -> dict[str, Any]:
     except ImportError as error:
         raise ImportError(f"{path}: reading .h5 files needs the package h5py") from error
     with h5py.File(path, "r") as file:
-        arrays = {name: data[()] for name, data in file.items()}
-    if isinstance(arrays.get("spec"), bytes):
-        arrays["spec"] = arrays["spec"].decode()
-    return {name: np.asarray(values) for name, values in arrays.items()}
+        return {name: np.asarray(data[()]) for name, data in file.items()}
 
 
 def _threads(threads: object) -> int:

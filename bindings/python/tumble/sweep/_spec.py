@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, Union
 
@@ -15,27 +15,19 @@ SpecLike = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 class SpecText(NamedTuple):
     text: str
     name: str  # for messages
+    folder: bytes  # that the file of a scene is named from
 
 
 def read_spec(spec: SpecLike) -> SpecText:
     """The spec as TOML. A text with a line break or a "=" is the spec itself, any other the name of its file."""
     if isinstance(spec, Mapping):
-        return SpecText("\n".join(_lines({"sweep": 1, **spec})) + "\n", "spec")
+        lines = [f"{_key(key)} = {_value(value, str(key))}\n" for key, value in {"sweep": 1, **spec}.items()]
+        return SpecText("".join(lines), "spec", b".")
     if isinstance(spec, str) and ("\n" in spec or "=" in spec):
-        return SpecText(spec, "spec")
+        return SpecText(spec, "spec", b".")
     if not isinstance(spec, (str, os.PathLike)):
         raise TypeError(f"spec: must be the name of a file, its text or a dict, got {type(spec).__name__}")
-    return SpecText(Path(spec).read_text(encoding="utf-8"), os.fspath(spec))
-
-
-def _lines(table: Mapping[str, Any]) -> Iterator[str]:
-    """One line for each key; what stands in a table of the spec is "table.key = ..."."""
-    for key, value in table.items():
-        if isinstance(value, Mapping) and key in ("start", "parameters", "measures"):
-            for inner, entry in value.items():
-                yield f"{_key(key)}.{_key(inner)} = {_value(entry, f'{key}.{inner}')}"
-        else:
-            yield f"{_key(key)} = {_value(value, str(key))}"
+    return SpecText(Path(spec).read_text(encoding="utf-8"), os.fspath(spec), os.fsencode(Path(spec).parent))
 
 
 def _key(key: object) -> str:

@@ -227,7 +227,8 @@ class Sweep:
         if not self.columns:
             raise ValueError("save: the spec keeps statistics alone, there are no columns")
         with complete_file(target) as unfinished:
-            np.savez(unfinished, spec=self.spec, **self.columns)
+            scene = {"scene": self._answers.scene} if self._answers.scene else {}
+            np.savez(unfinished, spec=self.spec, **scene, **self.columns)
 
 
 def _number(value: Any) -> float:

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import os
 import tempfile
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Optional
 
-from tumble.sweep._run import PathLike, load, run_shard
+from tumble.sweep._run import PathLike, load
 from tumble.sweep._spec import SpecLike, read_spec
 from tumble.sweep._sweep import Sweep, sweep_module
 
@@ -49,18 +49,17 @@ def run(
     ValueError, OSError
         As `tumble.sweep.run`, also for what happens on a worker. A part whose worker dies is given to another one by Dask.
     """
-    text, name = read_spec(spec)
-    chunks = int(sweep_module().plan(text, name)["chunks"])
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="tumble-sweep-") as made:
-            return run(text, client, os.path.join(made, "sweep"), shards=shards, threads=threads)
+            return run(spec, client, os.path.join(made, "sweep"), shards=shards, threads=threads)
+    read = read_spec(spec)
+    chunks = int(sweep_module().plan(*read)["chunks"])
     if shards is None:
         shards = _SHARDS_FOR_EACH_WORKER * max(1, len(client.scheduler_info()["workers"]))
     count = max(1, min(int(shards), chunks))
-    futures = [
-        client.submit(_work, text, os.path.abspath(folder), index, count, threads, pure=False)
-        for index in range(1, count + 1)
-    ]
+    path = os.fsencode(os.path.abspath(folder))
+    sweep_module().begin(*read, path, False)
+    futures = [client.submit(_work, path, index, count, threads, pure=False) for index in range(count)]
     try:
         client.gather(futures)
     finally:
@@ -68,9 +67,10 @@ def run(
     return load(folder)
 
 
-def _work(text: str, folder: str, index: int, count: int, threads: int) -> dict[str, Any]:
+def _work(folder: bytes, index: int, count: int, threads: int) -> None:
+    """On a worker: one shard of the sweep that the folder was begun for."""
     if threads == 0:
         from distributed import get_worker
 
         threads = get_worker().state.nthreads
-    return run_shard(text, folder, index, count, threads=threads)
+    sweep_module().run_shard(folder, index, count, threads, None)

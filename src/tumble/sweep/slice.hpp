@@ -1,4 +1,4 @@
-// The instances of a chunk, simulated.
+// Some instances of a sweep, simulated.
 #pragma once
 
 #include <functional>
@@ -15,8 +15,14 @@ namespace tumble::sweep {
 // the work.
 std::vector<Column> simulate_slice(const Spec& spec, const Slice& slice, const std::function<void()>& watch);
 
-// x [m] of one instance in the columns 0, every, 2 every, ...; NaN behind the last good one.
-std::vector<double> simulate_path(const Spec& spec, std::uint64_t instance, int every);
+// x [m] of one instance, of the measured body, over time [s]; NaN where it has ended.
+struct Path {
+  std::vector<double> time;
+  std::vector<double> x;
+};
+
+// In the samples 0, every, 2 every, ...
+Path simulate_path(const Spec& spec, std::uint64_t instance, int every);
 
 // The columns of simulate_slice without values.
 std::vector<Column> empty_columns(const Spec& spec);
