@@ -53,6 +53,10 @@ struct RunOptions {
 };
 int run_scene(const RunOptions& options);
 
+// Prints what the program was built with and the hash of the reference run; a numerical failure if that is not what it
+// is everywhere.
+int run_doctor(const ReportOptions& options);
+
 struct CheckOptions {
   std::string input;  // "-" is standard input
   ReportOptions report;

@@ -283,6 +283,14 @@ void add_sweep(CLI::App& program, SweepOptions& options, MergeOptions& merge, st
   });
 }
 
+void add_doctor(CLI::App& program, ReportOptions& options, std::function<int()>& command) {
+  CLI::App& app = *program.add_subcommand(
+      "doctor", "Print versions and instruction sets, and whether numbers come out as on other machines");
+  add_report_options(app, options);
+  app.footer("TUMBLE_INSTRUCTION_SET=NAME picks another instruction set. Exit code 3: the numbers are wrong.");
+  app.callback([&] { command = [&] { return run_doctor(options); }; });
+}
+
 int fail(const std::string& message) { return report_failure(message, k_bad_input); }
 
 // What was printed may still be on its way, to a disk that is full.
@@ -296,7 +304,7 @@ void require_command(const CLI::App& program, const std::string& word) {
   const auto commands = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
   if (commands.empty() && !word.starts_with('-')) {
     throw std::invalid_argument(
-        fmt::format("there is no command '{}'; there are drop, run, check, render, sweep and lcp", word));
+        fmt::format("there is no command '{}'; there are drop, run, check, render, sweep, lcp and doctor", word));
   }
 }
 
@@ -315,6 +323,7 @@ int run(int argc, char** argv) {
   SweepOptions sweep_options;
   MergeOptions merge_options;
   LcpOptions lcp_options;
+  ReportOptions doctor_options;
   std::function<int()> command;
   add_drop(program, drop_options, command);
   add_run(program, run_options, command);
@@ -322,6 +331,7 @@ int run(int argc, char** argv) {
   add_render(program, render_options, command);
   add_sweep(program, sweep_options, merge_options, command);
   add_lcp(program, lcp_options, command);
+  add_doctor(program, doctor_options, command);
 
   try {
     if (argc > 1) require_command(program, argv[1]);

@@ -10,6 +10,7 @@
 #include "json.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "sweep_mpi.hpp"
 #include <fmt/format.h>
 
 #include "tumble/batch/parallel.hpp"
@@ -81,7 +82,7 @@ void finish(std::span<const sweep::Folder> folders, const Targets& targets, bool
   fmt::print("{}", to_text(json));
 }
 
-sweep::RunReport compute(const sweep::Folder& folder, const SweepOptions& options) {
+sweep::RunReport compute(const sweep::Folder& folder, const SweepOptions& options, Processes& processes) {
   const InterruptGuard interrupt;
   const sweep::Spec& spec = folder.spec();
   Progress progress(static_cast<std::int64_t>(sweep::num_instances(spec) / options.shards), 1.0, "instances");
@@ -90,7 +91,7 @@ sweep::RunReport compute(const sweep::Folder& folder, const SweepOptions& option
   settings.threads = options.threads;
   settings.is_interrupted = [&] { return interrupt.is_interrupted(); };
   settings.progress = [&](std::uint64_t instances) { progress.show(static_cast<std::int64_t>(instances)); };
-  return sweep::run_sweep(folder, settings);
+  return processes.are_many() ? processes.lead(folder, settings) : sweep::run_sweep(folder, settings);
 }
 
 void print_faults(const std::vector<std::string>& faults) {
@@ -111,15 +112,17 @@ int report_shard(const SweepOptions& options, const sweep::RunReport& report, co
   return k_done;
 }
 
-}  // namespace
-
-int run_sweep(const SweepOptions& options) {
+int run_sweep(const SweepOptions& options, Processes& processes) {
   batch::require_threads(options.threads);
   const Targets targets = targets_of(options);
+  if (!processes.is_first()) {
+    processes.help([&] { return sweep::Folder::open(targets.folder); });
+    return k_done;
+  }
   const sweep::Spec spec = read_spec(options.input);
   if (!targets.file.empty()) output::check_table_writable(targets.file, options.overwrite);
   const sweep::Folder folder = sweep::Folder::begin(targets.folder, spec, options.overwrite);
-  const sweep::RunReport report = compute(folder, options);
+  const sweep::RunReport report = compute(folder, options, processes);
   print_faults(report.faults);
   if (report.is_interrupted) {
     return report_failure(
@@ -130,6 +133,18 @@ int run_sweep(const SweepOptions& options) {
   finish({&folder, 1}, targets, options.overwrite, options.threads, options.report);
   if (!targets.file.empty()) folder.remove();
   return k_done;
+}
+
+}  // namespace
+
+int run_sweep(const SweepOptions& options) {
+  Processes processes;
+  if (!processes.are_many()) return run_sweep(options, processes);
+  try {
+    return run_sweep(options, processes);
+  } catch (const std::exception& error) {
+    processes.abort(report_failure(error.what(), k_bad_input));  // the others would wait
+  }
 }
 
 int merge_sweep(const MergeOptions& options) {

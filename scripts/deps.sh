@@ -11,13 +11,14 @@ packages_of() {
                   python3-matplotlib python3-pil python3-tk python3-pil.imagetk" ;;
     test) echo "libgtest-dev libfclib-dev python3-pytest python3-pytest-xdist python3-hypothesis python3-h5py mypy ffmpeg
                 clang-14 libclang-rt-14-dev clang-format-14 git" ;;
+    mpi) echo "libopenmpi-dev openmpi-bin" ;;
     bench) echo "libbenchmark-dev" ;;
     bench-lcp) echo "libsiconos-numerics-dev libbullet-dev libdart-dev libfclib-dev" ;;
     bench-scenes) echo "libbox2d-dev libchipmunk-dev" ;;
     viewer) echo "emscripten nodejs npm" ;;
     viewer-test) echo "chromium" ;;
     fuzz) echo "clang-14 libclang-rt-14-dev" ;;
-    *) echo "deps.sh: unknown set '$1'; sets: build python test bench bench-lcp bench-scenes viewer viewer-test fuzz" >&2; exit 2 ;;
+    *) echo "deps.sh: unknown set '$1'; sets: build python test mpi bench bench-lcp bench-scenes viewer viewer-test fuzz" >&2; exit 2 ;;
   esac
 }
 

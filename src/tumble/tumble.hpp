@@ -3,6 +3,7 @@
 
 #include "tumble/batch/parallel.hpp"
 #include "tumble/batch/rollout.hpp"
+#include "tumble/batch/reference_run.hpp"
 #include "tumble/batch/simulate_batch.hpp"
 #include "tumble/contact/island_solver.hpp"
 #include "tumble/contact/restitution.hpp"

@@ -12,7 +12,7 @@
 #include "../random_contact.hpp"
 #include "problems.hpp"
 
-#include "tumble/batch/simulate_batch.hpp"
+#include "tumble/batch/reference_run.hpp"
 #include "tumble/drop/drop.hpp"
 #include "tumble/lcp/lemke.hpp"
 #include "tumble/lcp/lemke_lu.hpp"
@@ -64,48 +64,12 @@ std::uint64_t hash_of_drops() {
   return hash.value();
 }
 
-// 2000 drops at once, by every instruction set that this processor has: states every 10 columns and measures, in
-// double, which must be those of `simulate`, then in single precision.
-template <class Real>
-void add_batch(Hash& hash, tumble::InstructionSet set) {
-  Random random(6);
-  std::vector<Real> q0, v0;
-  std::vector<double> values[7];
-  constexpr std::size_t count = 2000;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double low[7] = {0.05, 0.1, 0.0, 0.0, 0.001, 0.0, 1.0}, high[7] = {1.0, 5.0, 1.5, 1.0, 0.02, 0.002, 20.0};
-    for (std::size_t k = 0; k < 7; ++k) values[k].push_back(random.uniform(low[k], high[k]));
-    const double turns = i % 10 == 0 ? 1e7 : 10.0;
-    const double q_reach[3] = {1.0, 2.0, turns}, v_reach[3] = {3.0, 3.0, 20.0};
-    for (std::size_t c = 0; c < 3; ++c) q0.push_back(static_cast<Real>(random.uniform(-q_reach[c], q_reach[c])));
-    for (std::size_t c = 0; c < 3; ++c) v0.push_back(static_cast<Real>(random.uniform(-v_reach[c], v_reach[c])));
-  }
-  const tumble::batch::DropStarts<Real> starts{q0, v0};
-  const tumble::batch::DropParameters parameters{values[0], values[1], values[2], values[3],
-                                                 values[4], values[5], values[6], 301};
-  const std::size_t kept = 3 * count * tumble::batch::kept_columns(301, 10);
-  std::vector<Real> q(kept), v(kept);
-  std::vector<tumble::batch::DropMeasures> measures(count);
-  tumble::batch::simulate_batch<Real>(starts, parameters, {.every = 10, .instruction_set = set},
-                                      {.q = q, .v = v, .measures = measures});
-  hash.add(std::vector<double>(q.begin(), q.end()));
-  hash.add(std::vector<double>(v.begin(), v.end()));
-  for (const tumble::batch::DropMeasures& m : measures) {
-    hash.add(std::array{m.last_contact, m.rest_time, m.max_impulse, m.energy_lost, m.escape_time,
-                        static_cast<double>(m.impacts), static_cast<double>(m.face)});
-  }
-}
-
+// Batches of drops, by every instruction set that this processor has.
 std::uint64_t hash_of_batches() {
-  std::uint64_t common = 0;
-  for (const auto set : {tumble::InstructionSet::scalar, tumble::InstructionSet::baseline, tumble::InstructionSet::avx2,
-                         tumble::InstructionSet::avx512}) {
-    if (!tumble::has_instruction_set(set)) continue;
-    Hash hash;
-    add_batch<double>(hash, set);
-    add_batch<float>(hash, set);
-    if (set == tumble::InstructionSet::scalar) common = hash.value();
-    if (hash.value() != common) return 0;
+  std::uint64_t common = tumble::batch::reference_hash(tumble::InstructionSet::scalar);
+  for (const auto set :
+       {tumble::InstructionSet::baseline, tumble::InstructionSet::avx2, tumble::InstructionSet::avx512}) {
+    if (tumble::has_instruction_set(set) && tumble::batch::reference_hash(set) != common) return 0;
   }
   return common;
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -17,7 +17,7 @@ from tumble._progress import ProgressLine
 _DEFAULTS = Parameters()
 _DOCUMENT = _DEFAULTS.asdict()
 
-ParametersLike = Parameters | Sequence[Parameters] | Mapping[str, Any]
+ParametersLike = Union[Parameters, Sequence[Parameters], Mapping[str, Any]]
 
 
 @dataclass(frozen=True, eq=False)

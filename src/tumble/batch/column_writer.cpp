@@ -1,6 +1,7 @@
 #include "tumble/batch/column_writer.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 #if defined(__SSE2__)
@@ -10,97 +11,99 @@
 namespace tumble::batch {
 namespace {
 
-// Rows up to this length are put together as a whole, and then those of all drops in one piece.
-constexpr std::size_t k_longest_whole_row = 192;
-constexpr std::size_t k_part_of_row = 128;
+#if defined(__SSE2__)
+
+constexpr bool k_can_pass_caches = true;
+
+inline void stream(double* to, double a, double b) { _mm_stream_pd(to, _mm_set_pd(b, a)); }
+
+template <class At>
+inline void stream_line(double* to, At at) {
+  for (std::size_t k = 0; k < 8; k += 2) stream(to + k, at(k), at(k + 1));
+}
+
+template <class At>
+inline void stream_line(float* to, At at) {
+  for (std::size_t k = 0; k < 16; k += 4) _mm_stream_ps(to + k, _mm_set_ps(at(k + 3), at(k + 2), at(k + 1), at(k)));
+}
+
+void make_streams_visible() { _mm_sfence(); }
+
+#else
+
+constexpr bool k_can_pass_caches = false;
+
+template <class Real, class At>
+void stream_line(Real* to, At at) {
+  for (std::size_t k = 0; k < 64 / sizeof(Real); ++k) to[k] = at(k);
+}
+
+void make_streams_visible() {}
+
+#endif
 
 }  // namespace
 
 template <class Real>
-void write_once(Real* to, const Real* from, std::size_t count) {
-#if defined(__SSE2__)
-  constexpr std::size_t k_step = 16 / sizeof(Real);
-  const auto misplaced = reinterpret_cast<std::uintptr_t>(to) % 64;
-  const std::size_t head =
-      std::min(count, misplaced % sizeof(Real) != 0 ? count : (64 - misplaced) % 64 / sizeof(Real));
-  std::memcpy(to, from, head * sizeof(Real));
-  std::size_t i = head;
-  for (; i + k_step <= count; i += k_step) {
-    __m128i piece;
-    std::memcpy(&piece, from + i, sizeof piece);
-    _mm_stream_si128(reinterpret_cast<__m128i*>(to + i), piece);
-  }
-  std::memcpy(to + i, from + i, (count - i) * sizeof(Real));
-#else
-  std::memcpy(to, from, count * sizeof(Real));
-#endif
-}
-
-template <class Real>
-ColumnWriter<Real>::ColumnWriter(Real* q, Real* v, std::size_t columns)
-    : arrays_{q, v}, columns_(columns), length_(columns <= k_longest_whole_row ? columns : k_part_of_row) {
-  for (std::size_t a = 0; a < 2; ++a) {
-    if (arrays_[a] != nullptr) parts_[a].resize(k_most_drops * 3 * length_);
-  }
+void write_past_caches(Real* to, const Real* from, std::size_t count) {
+  constexpr std::size_t k_line = 64 / sizeof(Real);
+  for (std::size_t i = 0; i < count; i += k_line) stream_line(to + i, [&](std::size_t k) { return from[i + k]; });
+  make_streams_visible();
 }
 
 template <class Real>
 void ColumnWriter<Real>::begin(std::size_t first, std::size_t count) {
   first_ = first;
   count_ = count;
-  begun_ = put_ = in_tile_ = 0;
+  added_ = written_ = 0;
 }
 
 template <class Real>
-void ColumnWriter<Real>::add(const DropBlock<Real>& block) {
-  const Real* const rows[6] = {block.x, block.y, block.theta, block.vx, block.vy, block.omega};
-  for (std::size_t r = 0; r < 6; ++r) std::memcpy(tile_[r][in_tile_], rows[r], sizeof tile_[r][0]);
-  if (++in_tile_ == k_tile || put_ + in_tile_ == length_ || begun_ + put_ + in_tile_ == columns_) turn();
+void ColumnWriter<Real>::add() {
+  ++added_;
+  if (added_ != columns_ && added_ - written_ != k_new) return;
+  write_lines();
+  std::memcpy(held_[0], held_[k_new], k_line * sizeof held_[0]);
+  written_ = added_;
+  if (added_ == columns_) make_streams_visible();
 }
 
 template <class Real>
-void ColumnWriter<Real>::turn() {
-  for (std::size_t r = 0; r < 6; ++r) {
-    Real* const part = parts_[r / 3].data();
-    if (arrays_[r / 3] == nullptr) continue;
-    for (std::size_t i = 0; i < count_; ++i) {
-      Real* const row = part + (3 * i + r % 3) * length_ + put_;
-      if (in_tile_ == k_tile) {
-        for (std::size_t k = 0; k < k_tile; ++k) row[k] = tile_[r][k][i];
-      } else {
-        for (std::size_t k = 0; k < in_tile_; ++k) row[k] = tile_[r][k][i];
-      }
-    }
-  }
-  put_ += in_tile_;
-  in_tile_ = 0;
-  if (put_ == length_ || begun_ + put_ == columns_) flush();
-}
-
-template <class Real>
-void ColumnWriter<Real>::flush() {
+void ColumnWriter<Real>::write_lines() {
+  const Columns columns{columns_, written_, added_};  // a copy: the compiler could not know that rows do not change it
   for (std::size_t a = 0; a < 2; ++a) {
     if (arrays_[a] == nullptr) continue;
-    Real* const to = arrays_[a] + 3 * first_ * columns_;
-    if (length_ == columns_) {
-      write_once(to, parts_[a].data(), 3 * count_ * columns_);
-      continue;
-    }
-    for (std::size_t row = 0; row < 3 * count_; ++row) {
-      write_once(to + row * columns_ + begun_, parts_[a].data() + row * length_, put_);
+    Real* row = arrays_[a] + 3 * first_ * columns.all;
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t c = 0; c < 3; ++c, row += columns.all) write_row(row, &held_[k_line][3 * a + c][i], columns);
     }
   }
-  begun_ += put_;
-  put_ = 0;
 }
 
+// What has become ready of one row; `held` is its number in column `written`, and those before and after it are k_apart
+// from each other.
 template <class Real>
-void ColumnWriter<Real>::finish() {
-#if defined(__SSE2__)
-  _mm_sfence();  // other threads see what was written past the caches
-#endif
+inline void ColumnWriter<Real>::write_row(Real* row, const Real* held, const Columns& columns) {
+  constexpr std::ptrdiff_t k_apart = 6 * k_most_drops;
+  const auto [all, written, added] = columns;
+  const std::uintptr_t past = reinterpret_cast<std::uintptr_t>(row) % 64;
+  const bool has_lines = k_can_pass_caches && past % sizeof(Real) == 0;
+  const std::size_t head = has_lines ? (64 - past) % 64 / sizeof(Real) : 0;  // columns before the first line
+  // The columns before number k are written: whole lines of them, `written` being a multiple of k_line.
+  std::size_t k = written == 0 || head == 0 ? written : written - k_line + head;
+  const Real* at = held + (static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(written)) * k_apart;
+  if (written == 0) {
+    for (; k < std::min(head, added); ++k, at += k_apart) row[k] = *at;
+  }
+  for (; has_lines && k + k_line <= added; k += k_line, at += k_line * k_apart) {
+    stream_line(row + k, [&](std::size_t j) { return at[j * k_apart]; });
+  }
+  if (has_lines && added != all) return;
+  for (; k < added; ++k, at += k_apart) row[k] = *at;
 }
 
+template void write_past_caches(double*, const double*, std::size_t);
+template void write_past_caches(float*, const float*, std::size_t);
 template class ColumnWriter<double>;
 template class ColumnWriter<float>;
 

@@ -3,40 +3,47 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "tumble/batch/drop_lanes.hpp"
 
 namespace tumble::batch {
 
-// Writes `count` numbers past the caches: memory that is written once need not be read before.
-template <class Real>
-void write_once(Real* to, const Real* from, std::size_t count);
-
+// What is written once and not read soon goes to memory past the caches, where the processor can do that: else each
+// line of memory would be read first. That takes whole lines of 64 bytes, and rows begin anywhere in a line. So the
+// latest columns are held back, and of each row a line is written once all of it is there; only what shares a line with
+// a neighbour goes through the cache.
 template <class Real>
 class ColumnWriter {
  public:
   // q, v: the results' arrays of all drops, or null. `columns`: kept ones of each drop.
-  ColumnWriter(Real* q, Real* v, std::size_t columns);
+  ColumnWriter(Real* q, Real* v, std::size_t columns) : arrays_{q, v}, columns_(columns) {}
 
-  // Drops [first, first + count) follow; count <= k_most_drops.
+  // Drops [first, first + count) follow, count <= k_most_drops: all their columns, one by one. `next` is where the
+  // states of the next one are to be put, `add` says that they are there; those of the one before are kept meanwhile.
   void begin(std::size_t first, std::size_t count);
-  void add(const DropBlock<Real>& block);  // the next kept column
-  void finish();
+  States<Real> next() { return {held_[k_line + (added_ - written_)][0], k_most_drops}; }
+  void add();
 
-  static constexpr std::size_t k_most_drops = 32;
+  static constexpr std::size_t k_most_drops = 32;  // what is held back stays in the first-level cache
 
  private:
-  void turn();   // the columns of the tile become part of rows
-  void flush();  // the parts of rows go to the results
+  struct Columns {
+    std::size_t all, written, added;
+  };
+  void write_lines();
+  static void write_row(Real* row, const Real* held, const Columns& columns);
 
-  static constexpr std::size_t k_tile = 8;  // columns
+  static constexpr std::size_t k_line = 64 / sizeof(Real);
+  static constexpr std::size_t k_new = 2 * k_line;       // columns from one writing to the next
+  static constexpr std::size_t k_held = k_line + k_new;  // and those of a line that was begun before
   Real* arrays_[2];
-  std::size_t columns_, length_;  // of a row, and of a part of it that is put together in the cache
-  std::size_t first_ = 0, count_ = 0;
-  std::size_t begun_ = 0, put_ = 0, in_tile_ = 0;  // first column of the parts; columns in them; columns in the tile
-  std::vector<Real> parts_[2];                     // k_most_drops x 3 x length_
-  alignas(64) Real tile_[6][k_tile][k_most_drops];
+  std::size_t columns_, first_ = 0, count_ = 0;
+  std::size_t added_ = 0, written_ = 0;             // columns so far; columns when lines were last written
+  alignas(64) Real held_[k_held][6][k_most_drops];  // the columns written_ - k_line, ..., added_ - 1
 };
+
+// `count` numbers past the caches, `to` being the beginning of a line and `count` a multiple of 16 bytes.
+template <class Real>
+void write_past_caches(Real* to, const Real* from, std::size_t count);
 
 }  // namespace tumble::batch

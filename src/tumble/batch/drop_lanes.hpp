@@ -15,9 +15,6 @@ struct DropBlock {
   static constexpr std::size_t k_capacity = 128;
   using Array = Real[k_capacity];
 
-  // States.
-  alignas(64) Array x, y, theta, vx, vy, omega;
-
   // What the step needs of the parameters.
   alignas(64) Array half_l, inverse_m, inverse_I, mu, bounce /* 1 + eps */, dt, delta, g;
   alignas(64) Array clear_height;  // above it no corner is within delta, whatever the angle
@@ -37,19 +34,31 @@ struct MeasureBounds {
   Real rest_speed_squared, x_min, x_max;
 };
 
-// `num_steps` steps of the first `size` drops, from column `first_column` on; `bounds` null: without measures. The bits
+// x, y, theta, vx, vy, omega of drops side by side: six arrays, `stride` numbers apart.
+template <class Real>
+struct States {
+  Real* first;
+  std::size_t stride;
+
+  Real* operator[](std::size_t component) const { return first + component * stride; }
+};
+
+// `num_steps` steps of `size` drops, >= 1, of which the first leads from column `first_column`, where the states are
+// those in `from`, to `to`, and the others go on there. `bounds` null: without measures. The bits
 // are those of drop::step. That holds for what is ordinary: |theta| moderate, sizes of forces and speeds far from the
 // ends of the range, contacts that are not all but singular. A drop for which one step was not is marked; its state
 // means nothing then. Beyond `size`, up to the next multiple of k_padding, the arrays hold anything harmless.
 template <class Real>
-using AdvanceDrops = void (*)(DropBlock<Real>& block, std::size_t size, int first_column, int num_steps,
-                              const MeasureBounds<Real>* bounds);
+using AdvanceDrops = void (*)(DropBlock<Real>& block, States<Real> from, States<Real> to, std::size_t size,
+                              int first_column, int num_steps, const MeasureBounds<Real>* bounds);
 
 constexpr std::size_t k_padding = 16;  // no instruction set has more lanes
 
-#define TUMBLE_DECLARE_ADVANCE_DROPS(set)                                                            \
-  void advance_drops_##set(DropBlock<double>&, std::size_t, int, int, const MeasureBounds<double>*); \
-  void advance_drops_##set(DropBlock<float>&, std::size_t, int, int, const MeasureBounds<float>*);
+#define TUMBLE_DECLARE_ADVANCE_DROPS(set)                                                             \
+  void advance_drops_##set(DropBlock<double>&, States<double>, States<double>, std::size_t, int, int, \
+                           const MeasureBounds<double>*);                                             \
+  void advance_drops_##set(DropBlock<float>&, States<float>, States<float>, std::size_t, int, int,    \
+                           const MeasureBounds<float>*);
 TUMBLE_DECLARE_ADVANCE_DROPS(scalar)
 TUMBLE_DECLARE_ADVANCE_DROPS(baseline)
 TUMBLE_DECLARE_ADVANCE_DROPS(avx2)

@@ -12,6 +12,7 @@ namespace {
 using tumble::Lanes;
 using tumble::batch::DropBlock;
 using tumble::batch::MeasureBounds;
+using tumble::batch::States;
 
 // What is far from the ends of the range: products and quotients of three such numbers are too. Speeds of contacts and
 // 1 / m times dt are held to it.
@@ -75,8 +76,8 @@ TUMBLE_INLINE Forces<L> contact_forces(const DropBlock<typename L::Real>& block,
 
 // The columns and counts that measures are made of, for the step that leads to column `column`.
 template <class L>
-TUMBLE_INLINE void measure(DropBlock<typename L::Real>& block, std::size_t i, typename L::Value f_n, int column,
-                           const MeasureBounds<typename L::Real>& bounds) {
+TUMBLE_INLINE void measure(DropBlock<typename L::Real>& block, States<typename L::Real> states, std::size_t i,
+                           typename L::Value f_n, int column, const MeasureBounds<typename L::Real>& bounds) {
   using Real = typename L::Real;
   const auto zero = L::all(0), one = L::all(1), now = L::all(static_cast<Real>(column));
   const auto is_closed = f_n > zero;
@@ -86,23 +87,24 @@ TUMBLE_INLINE void measure(DropBlock<typename L::Real>& block, std::size_t i, ty
   L::store(block.impacts + i, L::load(block.impacts + i) + L::keep(is_closed, one - was_closed));
   L::store(block.was_closed + i, L::keep(is_closed, one));
 
-  const auto vx = L::load(block.vx + i), vy = L::load(block.vy + i), omega = L::load(block.omega + i);
+  const auto vx = L::load(states[3] + i), vy = L::load(states[4] + i), omega = L::load(states[5] + i);
   const auto speed_squared = (vx * vx + vy * vy) + L::load(block.gyration + i) * (omega * omega);
   const auto is_moving = speed_squared > L::all(bounds.rest_speed_squared);
   L::store(block.last_moving + i, L::select(is_moving, now, L::load(block.last_moving + i)));
-  const auto x = L::load(block.x + i), escape = L::load(block.escape + i);
+  const auto x = L::load(states[0] + i), escape = L::load(block.escape + i);
   const auto escapes = ((x < L::all(bounds.x_min)) | (x > L::all(bounds.x_max))) & (escape < zero);
   L::store(block.escape + i, L::select(escapes, now, escape));
 }
 
 // One step of the drops in the lanes from i on: `step` of drop.cpp.
 template <class L, bool measures>
-TUMBLE_INLINE void advance_lanes(DropBlock<typename L::Real>& block, std::size_t i, int column,
+TUMBLE_INLINE void advance_lanes(DropBlock<typename L::Real>& block, States<typename L::Real> from,
+                                 States<typename L::Real> to, std::size_t i, int column,
                                  const MeasureBounds<typename L::Real>* bounds) {
   using Real = typename L::Real;
   const auto zero = L::all(0);
-  auto x = L::load(block.x + i), y = L::load(block.y + i), theta = L::load(block.theta + i);
-  auto vx = L::load(block.vx + i), vy = L::load(block.vy + i), omega = L::load(block.omega + i);
+  auto x = L::load(from[0] + i), y = L::load(from[1] + i), theta = L::load(from[2] + i);
+  auto vx = L::load(from[3] + i), vy = L::load(from[4] + i), omega = L::load(from[5] + i);
   const auto dt = L::load(block.dt + i);
   auto acceleration_x = zero, acceleration_y = -L::load(block.g + i), acceleration_theta = zero;
   auto lift = zero, f_n = zero;
@@ -131,30 +133,35 @@ TUMBLE_INLINE void advance_lanes(DropBlock<typename L::Real>& block, std::size_t
   x = x + dt * vx;
   y = (y + dt * vy) + lift;
   theta = theta + dt * omega;
-  L::store(block.vx + i, vx);
-  L::store(block.vy + i, vy);
-  L::store(block.omega + i, omega);
-  L::store(block.x + i, x);
-  L::store(block.y + i, y);
-  L::store(block.theta + i, theta);
-  if constexpr (measures) measure<L>(block, i, f_n, column, *bounds);
+  L::store(to[3] + i, vx);
+  L::store(to[4] + i, vy);
+  L::store(to[5] + i, omega);
+  L::store(to[0] + i, x);
+  L::store(to[1] + i, y);
+  L::store(to[2] + i, theta);
+  if constexpr (measures) measure<L>(block, to, i, f_n, column, *bounds);
 }
 
 template <class L, bool measures>
-TUMBLE_INLINE void advance_block(DropBlock<typename L::Real>& block, std::size_t size, int first_column, int num_steps,
+TUMBLE_INLINE void advance_block(DropBlock<typename L::Real>& block, States<typename L::Real> from,
+                                 States<typename L::Real> to, std::size_t size, int first_column, int num_steps,
                                  const MeasureBounds<typename L::Real>* bounds) {
   for (int k = 1; k <= num_steps; ++k) {
-    for (std::size_t i = 0; i < size; i += L::k_count) advance_lanes<L, measures>(block, i, first_column + k, bounds);
+    for (std::size_t i = 0; i < size; i += L::k_count) {
+      advance_lanes<L, measures>(block, from, to, i, first_column + k, bounds);
+    }
+    from = to;
   }
 }
 
 template <class L>
-TUMBLE_INLINE void advance(DropBlock<typename L::Real>& block, std::size_t size, int first_column, int num_steps,
+TUMBLE_INLINE void advance(DropBlock<typename L::Real>& block, States<typename L::Real> from,
+                           States<typename L::Real> to, std::size_t size, int first_column, int num_steps,
                            const MeasureBounds<typename L::Real>* bounds) {
   if (bounds == nullptr) {
-    advance_block<L, false>(block, size, first_column, num_steps, bounds);
+    advance_block<L, false>(block, from, to, size, first_column, num_steps, bounds);
   } else {
-    advance_block<L, true>(block, size, first_column, num_steps, bounds);
+    advance_block<L, true>(block, from, to, size, first_column, num_steps, bounds);
   }
 }
 

@@ -145,17 +145,9 @@ class BlockRunner {
     const auto* const bounds = results_.measures.empty() ? nullptr : &bounds_;
     const int num_steps = parameters_.columns - 1;
     if (settings_.every == 0) {
-      advance_(block_, count, 0, num_steps, bounds);
+      advance_(block_, states_, states_, count, 0, num_steps, bounds);
     } else {
-      writer_.begin(first, count);
-      writer_.add(block_);
-      for (int column = 0; column < num_steps;) {
-        const int steps = std::min(settings_.every, num_steps - column);
-        advance_(block_, count, column, steps, bounds);
-        column += steps;
-        if (column % settings_.every == 0) writer_.add(block_);
-      }
-      writer_.finish();
+      advance_and_keep(first, count, bounds);
     }
     for (std::size_t j = 0; j < count; ++j) finish(first + j, j);
   }
@@ -186,13 +178,33 @@ class BlockRunner {
     }
   }
 
+  // Kept columns come into being where the writer wants them; `states_` are the last ones in the end.
+  void advance_and_keep(std::size_t first, std::size_t count, const MeasureBounds<Real>* bounds) {
+    const int num_steps = parameters_.columns - 1;
+    const auto copy = [](States<Real> from, States<Real> to) {
+      for (std::size_t c = 0; c < 6; ++c) std::copy_n(from[c], ColumnWriter<Real>::k_most_drops, to[c]);
+    };
+    writer_.begin(first, count);
+    States<Real> from = writer_.next();
+    copy(states_, from);
+    writer_.add();
+    for (int column = 0; column < num_steps;) {
+      const int steps = std::min(settings_.every, num_steps - column);
+      const bool is_kept = steps == settings_.every;
+      const States<Real> to = is_kept ? writer_.next() : states_;
+      advance_(block_, from, to, count, column, steps, bounds);
+      if (is_kept) writer_.add();
+      column += steps;
+      from = to;
+    }
+    if (from.first != states_.first) copy(from, states_);
+  }
+
   void put_state(std::size_t j, const Vector3& q, const Vector3& v) {
-    block_.x[j] = static_cast<Real>(q[0]);
-    block_.y[j] = static_cast<Real>(q[1]);
-    block_.theta[j] = static_cast<Real>(q[2]);
-    block_.vx[j] = static_cast<Real>(v[0]);
-    block_.vy[j] = static_cast<Real>(v[1]);
-    block_.omega[j] = static_cast<Real>(v[2]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      states_[c][j] = static_cast<Real>(q[c]);
+      states_[3 + c][j] = static_cast<Real>(v[c]);
+    }
   }
 
   void load(std::size_t first, std::size_t count) {
@@ -220,7 +232,7 @@ class BlockRunner {
   }
 
   void note(std::size_t j) {
-    const Real vx = block_.vx[j], vy = block_.vy[j], omega = block_.omega[j], x = block_.x[j];
+    const Real vx = states_[3][j], vy = states_[4][j], omega = states_[5][j], x = states_[0][j];
     const Real speed_squared = (vx * vx + vy * vy) + block_.gyration[j] * (omega * omega);
     block_.last_contact[j] = Real(-1);
     block_.impacts[j] = block_.max_force_time[j] = block_.was_closed[j] = Real(0);
@@ -236,8 +248,8 @@ class BlockRunner {
       if (!results_.measures.empty()) results_.measures[i] = no_measures();
       return;
     }
-    const std::array<Real, 6> last = {block_.x[j],  block_.y[j],  block_.theta[j],
-                                      block_.vx[j], block_.vy[j], block_.omega[j]};
+    const std::array<Real, 6> last = {states_[0][j], states_[1][j], states_[2][j],
+                                      states_[3][j], states_[4][j], states_[5][j]};
     if (block_.is_ordinary[j] == Real(0) || !all_finite(last)) {
       run_alone(i);
       return;
@@ -324,6 +336,8 @@ class BlockRunner {
   drop::Parameters common_;
   bool is_valid_[DropBlock<Real>::k_capacity];
   DropBlock<Real> block_;
+  alignas(64) Real numbers_[6 * DropBlock<Real>::k_capacity];
+  States<Real> states_{numbers_, DropBlock<Real>::k_capacity};
   ColumnWriter<Real> writer_;
 };
 

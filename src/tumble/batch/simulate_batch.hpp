@@ -73,7 +73,7 @@ struct BatchSettings {
 // Where results go; an empty array is not wanted.
 template <class Real>
 struct DropResults {
-  std::span<Real> q{}, v{};              // N x 3 x kept_columns. NaN where a drop has no good column
+  std::span<Real> q{}, v{};            // N x 3 x kept_columns. NaN where a drop has no good column
   std::span<DropStatus> status{};      // N
   std::span<std::int32_t> columns{};   // N; columns that are good, all of them if solved
   std::span<DropMeasures> measures{};  // N

@@ -251,6 +251,12 @@ void check_hdf5() {}
 
 bool has_hdf5() { return true; }
 
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
 std::string to_hdf5(const drop::Record& record) { return to_hdf5(to_fields(record)); }
 
 std::string to_hdf5(const Trajectory& trajectory) { return to_hdf5(to_fields(trajectory)); }

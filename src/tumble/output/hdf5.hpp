@@ -15,6 +15,9 @@ namespace tumble::output {
 
 bool has_hdf5();
 
+// Of the library as loaded, "1.10.8".
+std::string hdf5_version();
+
 // Throws the error of a build without HDF5 if this is one.
 void check_hdf5();
 

@@ -16,6 +16,8 @@ void check_hdf5() { refuse(); }
 
 bool has_hdf5() { return false; }
 
+std::string hdf5_version() { refuse(); }
+
 std::string to_hdf5(const drop::Record&) { refuse(); }
 std::string to_hdf5(const Trajectory&) { refuse(); }
 

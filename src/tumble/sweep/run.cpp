@@ -1,5 +1,6 @@
 #include "tumble/sweep/run.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 #include "tumble/batch/parallel.hpp"
@@ -18,26 +19,35 @@ std::vector<std::uint64_t> chunks_of(const Spec& spec, const Shard& shard) {
   return chunks;
 }
 
-enum class Found : std::uint8_t { nothing, good, faulty };
+std::function<void()> interruption(const RunSettings& settings) {
+  return [&settings] {
+    if (settings.is_interrupted && settings.is_interrupted()) throw Interrupted{};
+  };
+}
 
-// Which chunks are complete; what is wrong with the files of others goes into the report.
-std::vector<Found> find_chunks(const Folder& folder, const std::vector<std::uint64_t>& chunks, int threads,
-                               const std::function<void()>& watch, RunReport& report) {
-  std::vector<Found> found(chunks.size(), Found::nothing);
+}  // namespace
+
+std::vector<std::uint64_t> find_missing(const Folder& folder, const RunSettings& settings, RunReport& report) {
+  const std::vector<std::uint64_t> chunks = chunks_of(folder.spec(), settings.shard);
+  const std::function<void()> watch = interruption(settings);
   std::vector<std::string> faults(chunks.size());
-  batch::for_each_chunk(chunks.size(), threads, [&](std::size_t k, std::size_t) {
+  std::vector<char> is_good(chunks.size(), 0);
+  batch::for_each_chunk(chunks.size(), settings.threads, [&](std::size_t k, std::size_t) {
     watch();
     const std::filesystem::path path = folder.chunk_path(chunks[k]);
     if (!std::filesystem::exists(std::filesystem::symlink_status(path))) return;
     const auto fault = fault_of_chunk_file(path, {folder.spec_fingerprint(), chunks[k]}, num_parts(folder.spec()));
-    found[k] = fault ? Found::faulty : Found::good;
+    is_good[k] = !fault;
     faults[k] = fault.value_or("");
   });
+  std::vector<std::uint64_t> missing;
   for (std::size_t k = 0; k < chunks.size(); ++k) {
-    if (found[k] == Found::good) ++report.found;
-    if (found[k] == Found::faulty) report.faults.push_back(faults[k]);
+    if (!faults[k].empty()) report.faults.push_back(faults[k]);
+    if (!is_good[k]) missing.push_back(chunks[k]);
   }
-  return found;
+  report.chunks = chunks.size();
+  report.found = chunks.size() - missing.size();
+  return missing;
 }
 
 void compute_chunk(const Folder& folder, std::uint64_t chunk, const std::function<void()>& watch) {
@@ -45,25 +55,12 @@ void compute_chunk(const Folder& folder, std::uint64_t chunk, const std::functio
   write_chunk_file(folder.chunk_path(chunk), {folder.spec_fingerprint(), chunk}, parts);
 }
 
-}  // namespace
-
 RunReport run_sweep(const Folder& folder, const RunSettings& settings) {
   RunReport report;
-  const std::vector<std::uint64_t> chunks = chunks_of(folder.spec(), settings.shard);
-  report.chunks = chunks.size();
-  const std::function<void()> watch = [&] {
-    if (settings.is_interrupted && settings.is_interrupted()) throw Interrupted{};
-  };
+  const std::function<void()> watch = interruption(settings);
   try {
-    const std::vector<Found> found = find_chunks(folder, chunks, settings.threads, watch, report);
-    std::vector<std::uint64_t> missing;
-    std::atomic<std::uint64_t> done = 0;
-    for (std::size_t k = 0; k < chunks.size(); ++k) {
-      if (found[k] != Found::good)
-        missing.push_back(chunks[k]);
-      else
-        done += slice_of_chunk(folder.spec(), chunks[k]).count;
-    }
+    const std::vector<std::uint64_t> missing = find_missing(folder, settings, report);
+    std::atomic<std::uint64_t> done = report.found * folder.spec().chunk;  // the last chunk may be smaller
     batch::for_each_chunk(
         missing.size(), settings.threads,
         [&](std::size_t k, std::size_t) {
@@ -72,7 +69,7 @@ RunReport run_sweep(const Folder& folder, const RunSettings& settings) {
           done += slice_of_chunk(folder.spec(), missing[k]).count;
         },
         [&](std::size_t) {
-          if (settings.progress) settings.progress(done);
+          if (settings.progress) settings.progress(std::min<std::uint64_t>(done, num_instances(folder.spec())));
         });
   } catch (const Interrupted&) {
     report.is_interrupted = true;

@@ -30,6 +30,13 @@ struct RunReport {
   bool is_interrupted = false;      // chunks are missing then
 };
 
+// The two halves of run_sweep, for those who share chunks out in another way.
+// Chunks of the shard that have no good file; the report tells of the others.
+std::vector<std::uint64_t> find_missing(const Folder& folder, const RunSettings& settings, RunReport& report);
+// Simulates the chunk and writes its file. Throws std::system_error if it cannot be written, and what `watch`, which is
+// called now and then, throws.
+void compute_chunk(const Folder& folder, std::uint64_t chunk, const std::function<void()>& watch);
+
 // Each chunk that is finished stays, whatever comes then; the folder is the same for any number of threads. Throws
 // std::system_error if a file cannot be written.
 RunReport run_sweep(const Folder& folder, const RunSettings& settings);
