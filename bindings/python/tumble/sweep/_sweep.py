@@ -106,7 +106,7 @@ class Summary:
     _json: str
 
     def __str__(self) -> str:
-        return self._text
+        return self._text.rstrip("\n")
 
     def to_csv(self) -> str:
         """A line for each outcome and each measure."""
