@@ -172,10 +172,14 @@ class _Progress:
         self._instances = instances
 
     def __enter__(self) -> Optional[Callable[[int], None]]:
-        line, instances = self._line, self._instances
-        if line is None:
+        if self._line is None:
             return None
-        return lambda done: line.show(done / max(instances, 1), f"{done} of {instances} instances")
+        line, instances = self._line, self._instances
+
+        def told(done: int) -> None:
+            line.show(done / max(instances, 1), f"{done} of {instances} instances")
+
+        return told
 
     def __exit__(self, *_: object) -> None:
         if self._line is not None:

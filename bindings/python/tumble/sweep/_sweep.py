@@ -175,9 +175,11 @@ class Sweep:
             for row in data["outcomes"]
         }
         measures = {row["name"]: _measure(row) for row in data["measures"]}
-        counts = (data[name] for name in ("instances", "solved", "numerical", "invalid"))
         return Summary(
-            *counts,
+            data["instances"],
+            data["solved"],
+            data["numerical"],
+            data["invalid"],
             MappingProxyType(outcomes),
             MappingProxyType(measures),
             self._answers.summary_text,

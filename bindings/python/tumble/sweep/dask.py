@@ -7,21 +7,18 @@ from __future__ import annotations
 
 import os
 import tempfile
-from typing import TYPE_CHECKING, Optional
+from typing import Any, Optional
 
 from tumble.sweep._run import PathLike, load
 from tumble.sweep._spec import SpecLike, read_spec
 from tumble.sweep._sweep import Sweep, sweep_module
-
-if TYPE_CHECKING:
-    from distributed import Client
 
 _SHARDS_FOR_EACH_WORKER = 4  # so that no worker is idle for long while the last ones finish
 
 
 def run(
     spec: SpecLike,
-    client: Client,
+    client: Any,
     folder: Optional[PathLike] = None,
     *,
     shards: Optional[int] = None,
