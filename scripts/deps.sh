@@ -9,8 +9,9 @@ packages_of() {
                  libboost-dev libtomlplusplus-dev libgif-dev libhdf5-dev fonts-dejavu-core" ;;
     python) echo "python3-dev python3-venv python3-pip python3-setuptools python3-wheel pybind11-dev python3-numpy
                   python3-matplotlib python3-pil python3-tk python3-pil.imagetk" ;;
-    test) echo "libgtest-dev libfclib-dev python3-pytest python3-pytest-xdist python3-hypothesis python3-h5py mypy ffmpeg
-                clang-14 libclang-rt-14-dev clang-format-14 git g++-aarch64-linux-gnu qemu-user" ;;
+    test) echo "libgtest-dev libfclib-dev python3-pytest python3-pytest-xdist python3-hypothesis python3-h5py
+                python3-distributed mypy ffmpeg clang-14 libclang-rt-14-dev clang-format-14 git g++-aarch64-linux-gnu
+                qemu-user" ;;
     mpi) echo "libopenmpi-dev openmpi-bin" ;;
     bench) echo "libbenchmark-dev" ;;
     bench-lcp) echo "libsiconos-numerics-dev libbullet-dev libdart-dev libfclib-dev" ;;

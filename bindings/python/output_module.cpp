@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "without_gil.hpp"
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -22,23 +23,6 @@ namespace py = pybind11;
 output::WriteOptions as_options(const std::string& format, int width, int height, double speed,
                                 const std::string& page) {
   return {true, format, width, height, speed, page};
-}
-
-// Raises ValueError for what the caller can mend, OSError for what the machine refuses.
-template <class Write>
-void without_gil(Write write) {
-  std::string failure;
-  {
-    const py::gil_scoped_release released;
-    try {
-      write();
-    } catch (const std::runtime_error& error) {
-      failure = error.what();
-    }
-  }
-  if (failure.empty()) return;
-  PyErr_SetString(PyExc_OSError, failure.c_str());
-  throw py::error_already_set();
 }
 
 void save(const Trajectory& trajectory, bool has_contacts, const std::string& path, const std::string& format,

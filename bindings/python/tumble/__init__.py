@@ -20,6 +20,8 @@ Modules
 drop
     The document's model: a square falls on the ground (`get_contacts`, `form_lcp`, `solve_LCP`, `step`, `simulate`,
     `render`), one drop at a time or many at once (`simulate_batch`).
+sweep
+    Many drops as one question, from a spec to a summary and pictures (import it by its name: ``import tumble.sweep``).
 lcp
     Solvers for linear complementarity problems of any origin.
 course

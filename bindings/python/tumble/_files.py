@@ -54,14 +54,14 @@ class Target(NamedTuple):
 
 def as_target(path: Union[str, os.PathLike[str]], format: str, width: int, height: int, speed: float) -> Target:
     name, kind = os.fsencode(path), str(format)
-    size = _as_pixels(width, "width"), _as_pixels(height, "height")
+    size = as_pixels(width, "width"), as_pixels(height, "height")
     if not isinstance(speed, (int, float, np.number)):
         raise TypeError(f"speed: must be a number, got {speed!r:.40}")
     is_page = kind.lower() == "html" if kind else name.lower().endswith(b".html")
     return Target(name, kind, *size, float(speed), os.fsencode(find_page()) if is_page else b"")
 
 
-def _as_pixels(value: Any, field: str) -> int:
+def as_pixels(value: Any, field: str) -> int:
     try:
         return max(-1, min(operator.index(value), 1_000_000))  # what C++ refuses fits into its int
     except TypeError:

@@ -46,7 +46,7 @@ void draw_y_axis(output::Canvas& canvas, const output::Area& area, const Scale& 
 // The name of a column for reading: "final x" for "final_x".
 std::string words_of(std::string_view name);
 
-// The map viridis, even to the eye [Smith & van der Walt 2015]: dark at 0, light at 1.
+// The map viridis, even to the eye: dark at 0, light at 1.
 output::Colour colour_of_value(double share);
 
 // Apart also for the colour-blind [Okabe & Ito 2008].

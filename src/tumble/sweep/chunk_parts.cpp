@@ -14,17 +14,24 @@ std::size_t num_parts(const Spec& spec) {
   return k_first_column_part + (spec.keep == Keep::columns ? empty_columns(spec).size() : 0);
 }
 
-std::vector<std::string> compute_parts(const Spec& spec, std::uint64_t chunk, const std::function<void()>& watch) {
+Statistics add_up_chunk(const Spec& spec, std::uint64_t chunk,
+                        const std::function<std::vector<Column>(const Slice& piece)>& columns_of) {
   const Slice slice = slice_of_chunk(spec, chunk);
-  Statistics statistics(layout_of(spec));
-  std::vector<std::string> parts(num_parts(spec));
   const std::size_t usual = spec.scene ? k_scene_piece : k_piece;
+  Statistics statistics(layout_of(spec));
   for (std::size_t done = 0; done < slice.count; done += usual) {
-    const Slice piece = {slice.first + done, std::min(usual, slice.count - done)};
-    const std::vector<Column> columns = simulate_slice(spec, piece, watch);
-    statistics.add(columns);
-    for (std::size_t k = k_first_column_part; k < parts.size(); ++k) parts[k] += to_bytes(columns[k - 1]);
+    statistics.add(columns_of({slice.first + done, std::min(usual, slice.count - done)}));
   }
+  return statistics;
+}
+
+std::vector<std::string> compute_parts(const Spec& spec, std::uint64_t chunk, const std::function<void()>& watch) {
+  std::vector<std::string> parts(num_parts(spec));
+  const Statistics statistics = add_up_chunk(spec, chunk, [&](const Slice& piece) {
+    std::vector<Column> columns = simulate_slice(spec, piece, watch);
+    for (std::size_t k = k_first_column_part; k < parts.size(); ++k) parts[k] += to_bytes(columns[k - 1]);
+    return columns;
+  });
   parts[k_statistics_part] = to_bytes(statistics.to_fields());
   return parts;
 }

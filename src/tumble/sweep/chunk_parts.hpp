@@ -5,12 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "tumble/sweep/columns.hpp"
+#include "tumble/sweep/plan.hpp"
 #include "tumble/sweep/spec.hpp"
 #include "tumble/sweep/statistics.hpp"
 
 namespace tumble::sweep {
 
 std::size_t num_parts(const Spec& spec);
+
+// The statistics of a chunk, of which `columns_of` gives one piece after the other.
+Statistics add_up_chunk(const Spec& spec, std::uint64_t chunk,
+                        const std::function<std::vector<Column>(const Slice& piece)>& columns_of);
 
 // Simulates the chunk. `watch` is called now and then; what it throws ends the work.
 std::vector<std::string> compute_parts(const Spec& spec, std::uint64_t chunk, const std::function<void()>& watch);

@@ -72,14 +72,16 @@ std::int64_t solved_in(const OutcomeCounts& counts) {
   return sum;
 }
 
-// The most frequent outcome in its colour, which is the paler the less frequent it is.
-std::optional<Colour> face_colour(const OutcomeCounts& counts) {
+// The most frequent outcome in its colour, which is the paler the less frequent it is for sure: of what is drawn at
+// random, the lower end of the interval of its share counts.
+std::optional<Colour> face_colour(const OutcomeCounts& counts, bool is_drawn) {
   const std::int64_t solved = solved_in(counts);
   if (solved == 0) return std::nullopt;
   const auto most = std::max_element(counts.begin(), counts.begin() + k_num_landed);
-  const double share = static_cast<double>(*most) / static_cast<double>(solved);
+  const double share =
+      is_drawn ? interval_of_share(*most, solved).low : static_cast<double>(*most) / static_cast<double>(solved);
   const auto outcome = static_cast<Outcome>(most - counts.begin());
-  return output::mix(output::k_paper, colour_of(outcome), std::clamp((share - 0.2) / 0.8, 0.12, 1.0));
+  return output::mix(output::k_paper, colour_of(outcome), std::clamp((share - 0.2) / 0.7, 0.12, 1.0));
 }
 
 void draw_face_legend(Canvas& canvas, const Area& chart, bool has_paler) {
@@ -93,8 +95,8 @@ void draw_face_legend(Canvas& canvas, const Area& chart, bool has_paler) {
     y += 18.0;
   }
   if (!has_paler || y + 30.0 > chart.bottom()) return;
-  canvas.draw_text({left, y + 8.0}, "paler: less", {k_small_text - 1.0, output::k_muted});
-  canvas.draw_text({left, y + 21.0}, "often so", {k_small_text - 1.0, output::k_muted});
+  canvas.draw_text({left, y + 8.0}, "paler: less often", {k_small_text - 1.0, output::k_muted});
+  canvas.draw_text({left, y + 21.0}, "or not sure", {k_small_text - 1.0, output::k_muted});
 }
 
 void draw_stacked_shares(Canvas& canvas, const Area& chart, const Statistics& statistics) {
@@ -163,7 +165,7 @@ void draw_mean_line(Canvas& canvas, const Area& chart, const Statistics& statist
 
 }  // namespace
 
-void draw_face_map(Canvas& canvas, const Area& area, const Statistics& statistics) {
+void draw_face_map(Canvas& canvas, const Area& area, const Statistics& statistics, bool is_drawn) {
   const std::vector<CellAxis>& axes = statistics.layout().axes;
   const Area chart = chart_in(area, k_legend);
   draw_heading(canvas, area, axes.size() == 2 ? "The face that is up most often" : "Which face is up");
@@ -172,7 +174,7 @@ void draw_face_map(Canvas& canvas, const Area& area, const Statistics& statistic
     draw_stacked_shares(canvas, chart, statistics);
   } else {
     draw_cells(canvas, chart, statistics.layout(),
-               [&](std::size_t cell) { return face_colour(statistics.outcomes_in(cell)); });
+               [&](std::size_t cell) { return face_colour(statistics.outcomes_in(cell), is_drawn); });
   }
   draw_face_legend(canvas, chart, axes.size() == 2);
 }

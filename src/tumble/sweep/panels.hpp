@@ -24,8 +24,9 @@ void draw_faces(output::Canvas& canvas, const output::Area& area, const Summary&
 void draw_histogram(output::Canvas& canvas, const output::Area& area, const Statistics& statistics,
                     const Summary& summary, std::size_t measure);
 
-// The outcome that is most frequent in each cell. With one swept quantity the shares of all, on one another.
-void draw_face_map(output::Canvas& canvas, const output::Area& area, const Statistics& statistics);
+// The outcome that is most frequent in each cell, paler where it is rarer or, as instances are drawn at random, unsure.
+// With one swept quantity the shares of all, on one another.
+void draw_face_map(output::Canvas& canvas, const output::Area& area, const Statistics& statistics, bool is_drawn);
 
 // The mean of a measure in each cell. With one swept quantity a line.
 void draw_measure_map(output::Canvas& canvas, const output::Area& area, const Statistics& statistics,

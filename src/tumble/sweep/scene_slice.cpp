@@ -36,8 +36,8 @@ class Inputs {
     }
     std::vector<double>& rows = target.kind == SceneTarget::Kind::pose ? pose_ : velocity_;
     for (std::size_t i = 0; i < values_.count; ++i) {
-      rows[3 * (i * num_bodies + static_cast<std::size_t>(target.index)) + static_cast<std::size_t>(target.coordinate)] =
-          column[column.size() == 1 ? 0 : i];
+      rows[3 * (i * num_bodies + static_cast<std::size_t>(target.index)) +
+           static_cast<std::size_t>(target.coordinate)] = column[column.size() == 1 ? 0 : i];
     }
   }
 
@@ -91,7 +91,8 @@ Path scene_path(const SliceValues& values, int every) {
   const std::size_t num_bodies = batch::movable_bodies(model.scene).size();
   std::vector<double> pose(3 * num_bodies * values.count * path.time.size());
   batch::rollout(model.scene, inputs.instances(), settings, {pose, {}, {}, {}});
-  const auto first = pose.begin() + static_cast<std::ptrdiff_t>(3 * static_cast<std::size_t>(model.body) * path.time.size());
+  const auto first =
+      pose.begin() + static_cast<std::ptrdiff_t>(3 * static_cast<std::size_t>(model.body) * path.time.size());
   path.x.assign(first, first + static_cast<std::ptrdiff_t>(path.time.size()));
   return path;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "tumble/batch/simulate_batch.hpp"
+#include "tumble/math/exp_log.hpp"
 
 namespace tumble::sweep {
 namespace {
@@ -121,9 +122,10 @@ CellAxis cells_of_range(const std::string& name, const std::string& unit, double
                         bool is_logarithmic) {
   if (!(low < high)) return cells_of_values({name, unit, {low}});
   CellAxis cells{name, unit, {}, is_logarithmic};
+  const double ratio = is_logarithmic ? tumble::log(high / low) : 0.0;
   for (std::size_t k = 0; k <= k_drawn_bins; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(k_drawn_bins);
-    const double edge = is_logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
+    const double edge = is_logarithmic ? low * tumble::exp(share * ratio) : low + share * (high - low);
     cells.edges.push_back(k == 0 ? low : k == k_drawn_bins ? high : edge);
   }
   return cells;

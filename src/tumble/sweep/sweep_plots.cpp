@@ -50,7 +50,9 @@ Panel faces_panel(const PlotSource& source) {
 }
 
 Panel face_map_panel(const PlotSource& source) {
-  return [&source](Canvas& canvas, const Area& area) { draw_face_map(canvas, area, source.statistics); };
+  return [&source](Canvas& canvas, const Area& area) {
+    draw_face_map(canvas, area, source.statistics, source.summary.facts.is_drawn);
+  };
 }
 
 Panel fan_panel(const PlotSource& source) {
@@ -136,7 +138,7 @@ double draw_title(Canvas& canvas, const Summary& summary, double width) {
   const Point at{k_edge + 16.0, 36.0};
   output::draw_text_within(canvas, room, at, summary.facts.title.empty() ? "A sweep of drops" : summary.facts.title,
                            {19.0, output::k_ink, Align::left, true});
-  std::string facts = fmt::format("{} instances", summary.instances);
+  std::string facts = fmt::format("{} instance{}", summary.instances, summary.instances == 1 ? "" : "s");
   if (summary.numerical > 0) facts += fmt::format(", {} numerical left out", summary.numerical);
   if (summary.invalid > 0) facts += fmt::format(", {} invalid left out", summary.invalid);
   for (const std::string& swept : summary.facts.swept) facts += fmt::format(";  {}", swept);
