@@ -75,12 +75,13 @@ physics: ## errors of scenes against closed forms, at several step sizes; writes
 	@mkdir -p out
 	@$(BUILD)/bin/tumble_physics | tee out/physics.md
 
-bench: ## benchmarks; writes out/bench.md, and what bench-scenes writes
+bench: ## benchmarks; writes out/bench.md, out/bench-batch.md, and what bench-scenes writes
 	@scripts/deps.sh build python bench
 	@$(CMAKE) -B $(BUILD) -DTUMBLE_BUILD_PYTHON=ON -DTUMBLE_BUILD_BENCHMARKS=ON >/dev/null
 	@cmake --build $(BUILD)
 	@mkdir -p out
 	@$(PYTHON) benchmarks/run.py --build $(BUILD) --output out/bench.md
+	@$(PYTHON) benchmarks/batch/run.py --build $(BUILD) --output out/bench-batch.md
 	@$(MAKE) --no-print-directory bench-scenes
 
 LCP_ARGS ?=
