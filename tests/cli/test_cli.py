@@ -119,7 +119,7 @@ def test_speed_stretches_the_animation(tmp_path: Path) -> None:
 
 
 def test_an_unknown_command_is_named(tmp_path: Path) -> None:
-    assert "there is no command 'fall'; there are drop, run, check, render and lcp" in refuse("fall", cwd=tmp_path)
+    assert "there is no command 'fall'; there are drop, run, check, render, sweep, lcp and doctor" in refuse("fall", cwd=tmp_path)
     assert "there is no command 'a?b'" in refuse("a\nb", cwd=tmp_path)
 
 
