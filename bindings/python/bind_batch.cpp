@@ -95,9 +95,9 @@ std::function<void(std::size_t)> watch(const py::object& progress) {
 }
 
 template <class Real>
-py::tuple simulate_batch(const py::object& q0, const py::object& v0, const py::dict& params, int every, bool measures,
-                         double rest_speed, double x_min, double x_max, int threads, const py::object& instruction_set,
-                         const py::object& progress) {
+py::tuple simulate_batch(const py::object& q0, const py::object& v0, const py::dict& params, int every, bool states,
+                         bool measures, double rest_speed, double x_min, double x_max, int threads,
+                         const py::object& instruction_set, const py::object& progress) {
   const auto q_rows = as_rows<Real>(q0, "q0"), v_rows = as_rows<Real>(v0, "v0");
   if (q_rows.shape(0) != v_rows.shape(0)) {
     throw std::invalid_argument(
@@ -109,6 +109,7 @@ py::tuple simulate_batch(const py::object& q0, const py::object& v0, const py::d
   if (every != 0 && parameters.columns > 0) {
     shape.push_back(static_cast<py::ssize_t>(batch::kept_columns(parameters.columns, every)));
   }
+  if (!states) shape[0] = 0;
   py::array_t<Real> q(shape), v(shape);
   py::array_t<std::uint8_t> status(count);
   py::array_t<std::int32_t> columns(count);
@@ -128,7 +129,10 @@ py::tuple simulate_batch(const py::object& q0, const py::object& v0, const py::d
     const py::gil_scoped_release without_gil;
     batch::simulate_batch<Real>(starts, arrays, settings, results);
   }
-  return py::make_tuple(q, v, status, columns, measures ? py::object(told) : py::none());
+  const auto or_none = [](const py::array& array, bool is_wanted) {
+    return is_wanted ? py::object(array) : py::none();
+  };
+  return py::make_tuple(or_none(q, states), or_none(v, states), status, columns, or_none(told, measures));
 }
 
 std::string what_is_invalid(const py::object& q0, const py::object& v0, const py::dict& params, std::size_t i) {

@@ -1,6 +1,7 @@
 // Part 4: trajectories, against those of an independent implementation that tries every basis of each LCP.
 // TUMBLE_VECTORS is the folder they are in: index.csv and one file per trajectory.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tumble/batch/simulate_batch.hpp"
 #include "tumble/drop/drop.hpp"
 
 namespace tumble::drop {
@@ -102,6 +104,33 @@ TEST(ReferenceTrajectories, AreReproducedAsAWhole) {
           largest, distance({trajectory.q_at(k), trajectory.v_at(k)}, reference.state(static_cast<std::size_t>(k))));
     }
     EXPECT_LE(largest, tolerance) << reference.name << ", growth " << growth;
+  }
+}
+
+// All columns of all reference trajectories at once, each with its own parameters, one step further.
+TEST(ReferenceTrajectories, AreReproducedStepByStepInOneBatch) {
+  const std::vector<Reference> all = references();
+  std::vector<double> q0, v0;
+  std::array<std::vector<double>, 7> values;  // l m mu eps dt delta g
+  for (const Reference& reference : all) {
+    const Parameters& p = reference.parameters;
+    for (std::size_t k = 0; k + 1 < 150; ++k) {
+      const State state = reference.state(k);
+      q0.insert(q0.end(), state.q.begin(), state.q.end());
+      v0.insert(v0.end(), state.v.begin(), state.v.end());
+      const std::array<double, 7> numbers = {p.l, p.m, p.mu, p.eps, p.dt, p.delta, p.g};
+      for (std::size_t i = 0; i < 7; ++i) values[i].push_back(numbers[i]);
+    }
+  }
+  std::vector<double> q(q0.size()), v(v0.size());
+  batch::simulate_batch<double>(
+      {q0, v0}, {values[0], values[1], values[2], values[3], values[4], values[5], values[6], 2}, {}, {q, v});
+  std::size_t i = 0;
+  for (const Reference& reference : all) {
+    for (std::size_t k = 0; k + 1 < 150; ++k, i += 3) {
+      const State next{{q[i], q[i + 1], q[i + 2]}, {v[i], v[i + 1], v[i + 2]}};
+      EXPECT_LT(distance(next, reference.state(k + 1)), 1e-13) << reference.name << " " << k;
+    }
   }
 }
 

@@ -66,6 +66,14 @@ def test_arrays_of_any_kind_are_taken() -> None:
     assert len(simulate_batch(np.zeros((0, 3)), np.zeros((0, 3)))) == 0
 
 
+def test_measures_alone() -> None:
+    q0, v0 = starts(100)
+    batch, whole = simulate_batch(q0, v0, keep="measures"), simulate_batch(q0, v0, measures=True)
+    assert batch.q is None and batch.v is None
+    assert batch.measures is not None and whole.measures is not None
+    assert batch.measures.tobytes() == whole.measures.tobytes() and (batch.columns == 150).all()
+
+
 def test_single_precision() -> None:
     q0, v0 = starts(500)
     for q, v in [(q0, v0), (q0.astype(np.float32), v0.astype(np.float32))]:
@@ -138,8 +146,8 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"params": {"columns": 1}}, "columns: must be in [2, 10000000], got 1"),
     ({"params": [Parameters(), Parameters(columns=3)]}, "params: must all have the same columns, got 3 to 150"),
     ({"params": [Parameters(), Parameters()]}, "l: must have 1 or 3 values, got 2"),
-    ({"keep": 0}, "keep: must be 'final', 'all' or a whole number >= 1, got 0"),
-    ({"keep": "last"}, "keep: must be 'final', 'all' or a whole number >= 1, got 'last'"),
+    ({"keep": 0}, "keep: must be 'final', 'all', 'measures' or a whole number >= 1, got 0"),
+    ({"keep": "last"}, "keep: must be 'final', 'all', 'measures' or a whole number >= 1, got 'last'"),
     ({"threads": -1}, "threads: must be a whole number in [0, 1024], 0 for one for each core, got -1"),
     ({"threads": 1.5}, "threads: must be a whole number in [0, 1024], 0 for one for each core, got 1.5"),
     ({"rest_speed": -1}, "rest_speed: must be >= 0, got -1 m/s"),

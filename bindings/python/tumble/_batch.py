@@ -26,22 +26,22 @@ class Batch:
 
     Attributes
     ----------
-    q, v : ndarray, shape (N, 3) or (N, 3, T)
+    q, v : ndarray, shape (N, 3) or (N, 3, T), or None
         Last poses [m, m, rad] and velocities [m/s, m/s, rad/s], or those of the T columns that are kept. NaN where a
-        drop has no good column.
+        drop has no good column. None with ``keep="measures"``.
     status : ndarray of uint8, shape (N,)
         Index into `Batch.STATUSES`: 0 solved; 1 numerical: a step left the range of double arithmetic, the columns
         before it are good; 2 invalid: the start or the parameters are NaN or out of range, `why` says how.
     columns : ndarray of int32, shape (N,)
         Good columns: all of them if solved.
     measures : structured ndarray, shape (N,), or None
-        With ``measures=True``: ``measures["face"]`` and so on, see `simulate_batch`.
+        With ``measures=True`` or ``keep="measures"``: ``measures["face"]`` and so on, see `simulate_batch`.
     """
 
     STATUSES = ("solved", "numerical", "invalid")
 
-    q: NDArray[Any]
-    v: NDArray[Any]
+    q: Any
+    v: Any
     status: NDArray[np.uint8]
     columns: NDArray[np.int32]
     measures: NDArray[Any] | None
@@ -85,8 +85,10 @@ def simulate_batch(
     params : Parameters, sequence of N Parameters, or mapping
         For all drops, for each drop, or by name: numbers for all and arrays of shape (N,), such as
         ``{"mu": np.linspace(0, 1, N), "eps": 0.5, "columns": 200}``; what is left out is the document's.
-    keep : "final", "all", or int k >= 1
-        Columns that are kept: the last, all, or those numbered 0, k, 2k, ...
+    keep : "final", "all", int k >= 1, or "measures"
+        Columns that are kept: the last, all, or those numbered 0, k, 2k, ...; or none, only what is measured: q and v are
+        None then. For statistics of drops that are drawn from distributions, and are more than fit into memory, see
+        `tumble.sweep`.
     measures : bool
         Tell of each drop, as a structured array: ``last_contact``, end of the last step with a contact force [s], NaN
         if there was none; ``rest_time``, from when on it is at rest [s], NaN if it is not at the end; ``max_impulse``,
@@ -134,7 +136,8 @@ def simulate_batch(
     1000
     """
     arrays = _parameter_arrays(params)
-    every = _every(keep)
+    states = not (isinstance(keep, str) and keep == "measures")
+    every = _every(keep) if states else 0
     kind = np.dtype(dtype)
     if kind not in (np.float64, np.float32):
         raise ValueError(f"dtype: must be float64 or float32, got {kind}")
@@ -144,7 +147,7 @@ def simulate_batch(
     line = ProgressLine() if progress else None
     try:
         told = None if line is None else _teller(line, np.shape(q0)[0])
-        results = simulate(q0, v0, arrays, every, bool(measures), *bounds, cores, instruction_set, told)
+        results = simulate(q0, v0, arrays, every, states, bool(measures) or not states, *bounds, cores, instruction_set, told)
     finally:
         if line is not None:
             line.clear()
@@ -163,7 +166,7 @@ def _every(keep: str | int) -> int:
             return 1
     elif isinstance(keep, (int, np.integer)) and not isinstance(keep, bool) and 1 <= keep < 2**31:
         return int(keep)
-    raise ValueError(f"keep: must be 'final', 'all' or a whole number >= 1, got {keep!r}")
+    raise ValueError(f"keep: must be 'final', 'all', 'measures' or a whole number >= 1, got {keep!r}")
 
 
 def _number(name: str, value: object) -> float:

@@ -60,6 +60,7 @@ def simulate_batch(
     v0: ArrayLike,
     params: dict[str, Any],
     every: int,
+    states: bool,
     measures: bool,
     rest_speed: float,
     x_min: float,
@@ -67,7 +68,7 @@ def simulate_batch(
     threads: int,
     instruction_set: str | None,
     progress: Any,
-) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.uint8], NDArray[np.int32], NDArray[Any] | None]: ...
+) -> tuple[NDArray[Any] | None, NDArray[Any] | None, NDArray[np.uint8], NDArray[np.int32], NDArray[Any] | None]: ...
 
 simulate_batch_single = simulate_batch
 
