@@ -58,6 +58,14 @@ struct Parameters {
     columns = object["columns"].cast<int>();
   }
 
+  // For the library no value at all is the document's.
+  void require_lengths(std::size_t count) const {
+    for (std::size_t k = 0; k < 7; ++k) {
+      if (!values[k].span().empty() || count == 0) continue;
+      throw std::invalid_argument(fmt::format("{}: must have 1 or {} values, got 0", k_names[k], count));
+    }
+  }
+
   batch::DropParameters arrays() const {
     return {values[0].span(), values[1].span(), values[2].span(), values[3].span(),
             values[4].span(), values[5].span(), values[6].span(), columns};
@@ -105,6 +113,7 @@ py::tuple simulate_batch(const py::object& q0, const py::object& v0, const py::d
   }
   const Parameters parameters(params);
   const py::ssize_t count = q_rows.shape(0);
+  parameters.require_lengths(static_cast<std::size_t>(count));
   std::vector<py::ssize_t> shape = {count, 3};
   if (every != 0 && parameters.columns > 0) {
     shape.push_back(static_cast<py::ssize_t>(batch::kept_columns(parameters.columns, every)));

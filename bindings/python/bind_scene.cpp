@@ -324,8 +324,9 @@ int SceneHandle::find_body(const py::handle& object) const {
     throw py::type_error(fmt::format("body: must be a name or an index, got {}", short_repr(object)));
   }
   const long index = PyLong_AsLong(object.ptr());
+  const bool is_too_large = PyErr_Occurred() != nullptr;
   PyErr_Clear();
-  if (index < -count || index >= count) {
+  if (is_too_large || index < -count || index >= count) {
     throw py::index_error(fmt::format("body: must be in [{}, {}], got {}", -count, count - 1, short_repr(object)));
   }
   return static_cast<int>(index < 0 ? index + count : index);

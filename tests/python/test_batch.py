@@ -142,6 +142,10 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"q0": "abc"}, "q0: must be an array of real numbers, got dtype <U3"),
     ({"params": {"mu": [0.1, 0.2]}}, "mu: must have 1 or 3 values, got 2"),
     ({"params": {"mu": -1}}, "mu: must be finite and >= 0, got -1"),
+    ({"params": {"mu": []}}, "mu: must have 1 or 3 values, got 0"),
+    ({"params": []}, "mu: must have 1 or 3 values, got 0"),
+    ({"dtype": "zz"}, "dtype: must be float64 or float32, got 'zz'"),
+    ({"rest_speed": 10**400}, f"rest_speed: must be a number, got {10**400}"),
     ({"params": {"nu": 1}}, "params: must have names out of l, m, mu, eps, dt, delta, g, columns, got 'nu'"),
     ({"params": {"columns": 1}}, "columns: must be in [2, 10000000], got 1"),
     ({"params": [Parameters(), Parameters(columns=3)]}, "params: must all have the same columns, got 3 to 150"),
@@ -227,6 +231,29 @@ def test_progress_is_shown_on_a_terminal_only() -> None:
     os.close(ours)
     assert child.wait() == 0
     assert b" of 200000 drops" in shown and shown.endswith(b"\r\x1b[K")
+
+
+@pytest.mark.parametrize("parameters", [{"dt": 1e38}, {"dt": 10.0, "g": 1e36}, {"delta": 1e39}, {"l": 1e-46}, {"g": 1e39}])
+def test_what_single_precision_cannot_hold_is_not_solved(parameters: dict[str, float]) -> None:
+    batch = simulate_batch([[0, 0.3, 0.4]], [[1.0, 0, 0]], parameters, dtype=np.float32, keep="all")
+    good = batch.columns[0]
+    assert (batch.status[0] == 0) == (good == 150)
+    assert np.isfinite(batch.q[0, :, :good]).all() and np.isnan(batch.q[0, :, good:]).all()
+
+
+def test_a_start_that_single_precision_cannot_hold() -> None:
+    batch = simulate_batch([[1e39, 0.15, 0.4]], [[0, 0, 0]], dtype=np.float32)
+    assert batch.status[0] == 2 and batch.why(0) == "q[0]: must be finite, got inf"
+
+
+def test_why_remembers_what_was_wrong() -> None:
+    q0 = np.array([[0, 1, 0], [np.nan, 1, 0]])
+    batch = simulate_batch(q0, np.zeros((2, 3)))
+    q0[1] = 0
+    assert batch.why(1) == batch.why(-1) == "q[0]: must be finite, got nan"
+    for index, error in ((2, IndexError), (-3, IndexError), (1.5, TypeError), ("a", TypeError)):
+        with pytest.raises(error, match="^i: must be"):
+            batch.why(index)  # type: ignore[arg-type]
 
 
 def test_names() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Union
@@ -16,6 +17,7 @@ from tumble._progress import ProgressLine
 
 _DEFAULTS = Parameters()
 _DOCUMENT = _DEFAULTS.asdict()
+_INVALID = 2  # of Batch.STATUSES
 
 ParametersLike = Union[Parameters, Sequence[Parameters], Mapping[str, Any]]
 
@@ -45,7 +47,7 @@ class Batch:
     status: NDArray[np.uint8]
     columns: NDArray[np.int32]
     measures: NDArray[Any] | None
-    _inputs: tuple[Any, Any, dict[str, Any]]
+    _invalid: tuple[Any, Any, dict[str, Any]]  # starts and parameters of those that are
 
     def __len__(self) -> int:
         return len(self.status)
@@ -57,9 +59,16 @@ class Batch:
 
     def why(self, i: int) -> str:
         """Why drop i is invalid, in the words of `simulate`; an empty text if it is not."""
-        if not -len(self) <= i < len(self):
-            raise IndexError(f"i: must be in [0, {len(self) - 1}], got {i}")
-        return _core.what_is_invalid(*self._inputs, i % len(self))
+        try:
+            index = operator.index(i)
+        except TypeError:
+            raise TypeError(f"i: must be a whole number, got {i!r}") from None
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"i: must be in [{-len(self)}, {len(self) - 1}], got {index}")
+        index %= len(self)
+        if self.status[index] != _INVALID:
+            return ""
+        return _core.what_is_invalid(*self._invalid, int(np.count_nonzero(self.status[:index] == _INVALID)))
 
 
 def simulate_batch(
@@ -92,7 +101,7 @@ def simulate_batch(
     measures : bool
         Tell of each drop, as a structured array: ``last_contact``, end of the last step with a contact force [s], NaN
         if there was none; ``rest_time``, from when on it is at rest [s], NaN if it is not at the end; ``max_impulse``,
-        the largest normal impulse of a step [N s]; ``energy_lost``, kinetic and potential [J]; ``escape_time``, first
+        the largest normal impulse of a step [N s]; ``energy_lost``, kinetic and potential [J], NaN if it leaves the range of double; ``escape_time``, first
         column with x outside `region` [s], NaN if there is none; ``impacts``, steps with a contact force whose step
         before had none; ``face``, the side that is up at the end: 0 that at +y in the body frame, 1 at +x, 2 at -y,
         3 at -x, and -1 if the drop is not solved.
@@ -138,7 +147,10 @@ def simulate_batch(
     arrays = _parameter_arrays(params)
     states = not (isinstance(keep, str) and keep == "measures")
     every = _every(keep) if states else 0
-    kind = np.dtype(dtype)
+    try:
+        kind = np.dtype(dtype)
+    except TypeError:
+        raise ValueError(f"dtype: must be float64 or float32, got {dtype!r}") from None
     if kind not in (np.float64, np.float32):
         raise ValueError(f"dtype: must be float64 or float32, got {kind}")
     simulate = _core.simulate_batch if kind == np.float64 else _core.simulate_batch_single
@@ -147,11 +159,21 @@ def simulate_batch(
     line = ProgressLine() if progress else None
     try:
         told = None if line is None else _teller(line, np.shape(q0)[0])
-        results = simulate(q0, v0, arrays, every, states, bool(measures) or not states, *bounds, cores, instruction_set, told)
+        with np.errstate(over="ignore"):  # of numbers that float32 cannot hold: those drops are invalid
+            results = simulate(q0, v0, arrays, every, states, bool(measures) or not states, *bounds, cores, instruction_set, told)
     finally:
         if line is not None:
             line.clear()
-    return Batch(*results, (q0, v0, arrays))
+    return Batch(*results, _rows_of(results[2] == _INVALID, q0, v0, arrays, kind))
+
+
+def _rows_of(chosen: NDArray[np.bool_], q0: ArrayLike, v0: ArrayLike, arrays: dict[str, Any], kind: Any) -> Any:
+    """Copies, since the caller may change the arrays later; None if there are no such rows, which is the usual case."""
+    if not chosen.any():
+        return None
+    values = {name: np.asarray(value)[chosen] if np.size(value) == len(chosen) != 1 else value for name, value in arrays.items()}
+    with np.errstate(over="ignore"):
+        return np.asarray(q0)[chosen].astype(kind), np.asarray(v0)[chosen].astype(kind), values
 
 
 def _teller(line: ProgressLine, count: int) -> Any:
@@ -172,7 +194,7 @@ def _every(keep: str | int) -> int:
 def _number(name: str, value: object) -> float:
     try:
         return float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name}: must be a number, got {value!r}") from None
 
 
@@ -201,9 +223,11 @@ def _parameter_arrays(params: ParametersLike) -> dict[str, Any]:
         arrays = {**_DOCUMENT, **params}
         arrays["columns"] = Parameters(columns=arrays["columns"]).columns
         return arrays
+    if not isinstance(params, Sequence):
+        raise TypeError(f"params: must be tumble.drop.Parameters, a sequence or a mapping, got {type(params).__name__}")
     rows = [_require_parameters(each).asdict() for each in params]
     if not rows:
-        return _DOCUMENT
+        return {**_DOCUMENT, "mu": np.empty(0)}  # as many as drops, if there are none
     columns = {row["columns"] for row in rows}
     if len(columns) != 1:
         raise ValueError(f"params: must all have the same columns, got {min(columns)} to {max(columns)}")

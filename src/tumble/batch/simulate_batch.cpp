@@ -121,6 +121,13 @@ bool is_tame(const drop::Parameters& p) {
 
 // ---- A block of drops ----
 
+// True if Real can hold the numbers.
+template <class Real>
+bool is_in_range(const drop::State& state) {
+  const auto fits = [](double x) { return std::isfinite(static_cast<Real>(x)); };
+  return std::all_of(state.q.begin(), state.q.end(), fits) && std::all_of(state.v.begin(), state.v.end(), fits);
+}
+
 template <class Real>
 class BlockRunner {
  public:
@@ -306,7 +313,7 @@ class BlockRunner {
     int columns = 1;
     for (; columns < p.columns; ++columns) {
       const auto [next, step] = drop::step_with_record(state.q, state.v, p);
-      if (step.status != LcpStatus::solved) {
+      if (step.status != LcpStatus::solved || !is_in_range<Real>(next)) {
         status = DropStatus::numerical;
         break;
       }

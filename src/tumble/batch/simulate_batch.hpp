@@ -37,7 +37,7 @@ drop::Parameters parameters_at(const DropParameters& parameters, std::size_t i);
 
 enum class DropStatus : std::uint8_t {
   solved,     // all columns are good
-  numerical,  // a step left the range of double arithmetic; the columns before it are good
+  numerical,  // a step left the range of double arithmetic, or of Real; the columns before it are good
   invalid,    // start or parameters are NaN or out of range, nothing was computed: `what_is_invalid` says why
 };
 

@@ -88,7 +88,12 @@ fs::path Folder::chunk_path(std::uint64_t chunk) const {
 }
 
 void Folder::remove_results() const {
-  fs::remove_all(path_ / k_chunks_name);
+  std::error_code error;
+  fs::remove_all(path_ / k_chunks_name, error);
+  if (error) {
+    refuse(path_ / k_chunks_name,
+           fmt::format("cannot be removed ({}); is another process at work in it?", error.message()));
+  }
   for (const char* name : k_result_names) fs::remove(path_ / name);
 }
 

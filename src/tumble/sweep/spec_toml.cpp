@@ -119,6 +119,16 @@ bool is_drawn(const Quantity& quantity) {
   return !is_constant(quantity) && !std::holds_alternative<Grid>(quantity.source);
 }
 
+// Printed on terminals, which would act on control characters.
+std::string title(const Value& root) {
+  const std::string text = root.text_or("title", "");
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      root.at("title").refuse_with("must have no control characters");
+  }
+  return text;
+}
+
 class SpecReader {
  public:
   Spec read(const Value& root, const ReadScene& read_scene) {
@@ -131,7 +141,7 @@ class SpecReader {
           {"sweep", "title", "seed", "samples", "chunk", "keep", "measures", "scene", "start", "parameters"});
     }
     root.at("sweep").integer(1, 1);
-    spec_.title = root.text_or("title", "");
+    spec_.title = title(root);
     if (file) {
       read_model(*file, read_scene);
       read_scene_quantities(root);
