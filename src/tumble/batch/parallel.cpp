@@ -138,11 +138,14 @@ void for_each_chunk(std::size_t num_chunks, int threads,
     }
   }
   work_and_watch();
-  for (std::unique_lock lock(mutex); num_running != 0;) {
-    ended.wait_for(lock, k_watch_every);
-    lock.unlock();
-    watcher.look();
-    lock.lock();
+  {
+    std::unique_lock lock(mutex);
+    while (num_running != 0) {
+      ended.wait_for(lock, k_watch_every);
+      lock.unlock();
+      watcher.look();
+      lock.lock();
+    }
   }
   for (std::thread& helper : helpers) helper.join();
 #endif
