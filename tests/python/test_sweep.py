@@ -86,6 +86,9 @@ def test_what_is_finished_is_not_computed_again(tmp_path):
 def test_files_come_back(swept, tmp_path):
     swept.save(tmp_path / "sweep.npz")
     assert_same(sweep_package.load(tmp_path / "sweep.npz"), swept)
+    swept.save(tmp_path / "SWEEP.NPZ")
+    assert_same(sweep_package.load(tmp_path / "SWEEP.NPZ"), swept)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["SWEEP.NPZ", "sweep.npz"]
     with np.load(tmp_path / "sweep.npz") as file:
         assert set(swept.columns) < set(file.files)
 
