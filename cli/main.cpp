@@ -47,7 +47,9 @@ const std::map<std::string, std::string> k_option_of_field = {{"l", "--side"},
                                                               {"threads", "--threads"}};
 
 std::string with_option_name(const std::string& message) {
-  if (message.ends_with("already exists")) return message + "; --force replaces it";
+  for (const char* ending : {"already exists", "its spec.toml gives other results"}) {
+    if (message.ends_with(ending)) return message + "; --force replaces it";
+  }
   const std::size_t colon = message.find(':');
   const auto found = k_option_of_field.find(message.substr(0, colon));
   return found == k_option_of_field.end() ? message : found->second + message.substr(colon);

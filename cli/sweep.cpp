@@ -116,12 +116,14 @@ int run_sweep(const SweepOptions& options, Processes& processes) {
   batch::require_threads(options.threads);
   const Targets targets = targets_of(options);
   if (!processes.is_first()) {
-    processes.help([&] { return sweep::Folder::open(targets.folder); });
+    processes.help([&] { return sweep::Folder::open_for_helper(targets.folder); });
     return k_done;
   }
   const sweep::Spec spec = read_spec(options.input);
   if (!targets.file.empty()) output::check_table_writable(targets.file, options.overwrite);
-  const sweep::Folder folder = sweep::Folder::begin(targets.folder, spec, options.overwrite);
+  const sweep::Folder folder =
+      sweep::Folder::begin(targets.folder, spec, options.overwrite,
+                           targets.file.empty() ? sweep::Folder::Use::shared : sweep::Folder::Use::alone);
   const sweep::RunReport report = compute(folder, options, processes);
   print_faults(report.faults);
   if (report.is_interrupted) {

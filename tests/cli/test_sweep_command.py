@@ -7,6 +7,8 @@ import shutil
 import signal
 import subprocess
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import h5py
@@ -162,10 +164,12 @@ def test_another_sweep_in_the_folder_is_refused(folder: Path) -> None:
     (folder / "drops.toml").write_text(SPEC.replace("seed = 7", "seed = 8"))
     error = refuse("sweep", "drops.toml", cwd=folder)
     assert error == (
-        "tumble: drops.sweep: holds another sweep: its spec.toml gives other results. --force empties the folder\n"
+        "tumble: drops.sweep: holds another sweep: its spec.toml gives other results; --force replaces it\n"
     )
+    (folder / "drops.sweep/letter.txt").write_text("Dear")
     succeed("sweep", "drops.toml", "--force", cwd=folder)
     assert (folder / "drops.sweep/columns.npz").read_bytes() != before
+    assert sorted(os.listdir(folder / "drops.sweep")) == sorted([*RESULTS, "letter.txt"])
     (folder / "other").mkdir()
     (folder / "other/letter.txt").write_text("Dear")
     error = refuse("sweep", "drops.toml", "-o", "other", "--force", cwd=folder)
@@ -231,6 +235,66 @@ def test_ctrl_c_ends_it_and_leaves_a_folder_to_go_on_with(folder: Path) -> None:
     assert kept
     succeed("sweep", "drops.toml", "-o", "part", cwd=folder)
     assert kept.items() <= {file: file.stat().st_mtime_ns for file in chunks_in(folder / "part")}.items()
+
+
+@contextmanager
+def paused_run(folder: Path, target: str, chunks: str) -> Iterator[subprocess.Popen[str]]:
+    """A run that stands still in the middle of its work during the block, and goes on then, unless it was killed."""
+    run = start(folder, "-o", target)
+    while not chunks_in(folder / chunks):
+        assert run.poll() is None
+        time.sleep(0.01)
+    run.send_signal(signal.SIGSTOP)
+    try:
+        yield run
+    finally:
+        run.send_signal(signal.SIGCONT)
+
+
+@pytest.mark.parametrize("ending", ["npz", "h5"])
+def test_a_file_is_made_by_one_process_at_a_time(folder: Path, ending: str) -> None:
+    (folder / "drops.toml").write_text(LONG)
+    target = f"a.{ending}"
+    with paused_run(folder, target, f"{target}.chunks") as run:
+        busy = f"tumble: {target}.chunks: another process is at work in this folder\n"
+        assert refuse("sweep", "drops.toml", "-o", target, cwd=folder) == busy
+        assert refuse("sweep", "drops.toml", "-o", target, "--force", cwd=folder) == busy
+        assert refuse("sweep", "merge", f"{target}.chunks", cwd=folder) == busy
+    _, error = run.communicate(timeout=120)
+    assert run.returncode == 0 and error == ""
+    assert sorted(os.listdir(folder)) == sorted([target, "drops.toml"])
+
+    (folder / target).unlink()
+    with paused_run(folder, target, f"{target}.chunks") as run:
+        run.kill()
+        run.communicate()
+    succeed("sweep", "drops.toml", "-o", target, cwd=folder)  # the lock has gone with its process
+    assert sorted(os.listdir(folder)) == sorted([target, "drops.toml"])
+
+
+def test_a_sweep_is_not_replaced_while_a_process_is_at_work_in_it(folder: Path) -> None:
+    (folder / "other.toml").write_text(SPEC)
+    (folder / "drops.toml").write_text(LONG)
+    succeed("sweep", "drops.toml", "-o", "whole.npz", cwd=folder)
+    with paused_run(folder, "part", "part") as run:
+        error = refuse("sweep", "other.toml", "-o", "part", "--force", cwd=folder)
+        assert error == "tumble: part: another process is at work in this folder\n"
+        succeed("sweep", "drops.toml", "-o", "part", "--shard", "2/3", cwd=folder)  # the same sweep may be helped with
+    _, error = run.communicate(timeout=120)
+    assert run.returncode == 0 and error == ""
+    assert (folder / "part/columns.npz").read_bytes() == (folder / "whole.npz").read_bytes()
+    succeed("sweep", "other.toml", "-o", "part", "--force", cwd=folder)
+
+
+def test_shards_replace_a_sweep_together(folder: Path) -> None:
+    succeed("sweep", "drops.toml", "-o", "shared", cwd=folder)
+    (folder / "drops.toml").write_text(SPEC.replace("seed = 7", "seed = 8"))
+    succeed("sweep", "drops.toml", "-o", "whole.npz", cwd=folder)
+    runs = [start(folder, "-o", "shared", "--force", "--shard", f"{shard}/6") for shard in range(1, 7)]
+    for run in runs:
+        assert run.communicate(timeout=120)[1] == "" and run.returncode == 0
+    succeed("sweep", "merge", "shared", cwd=folder)
+    assert (folder / "shared/columns.npz").read_bytes() == (folder / "whole.npz").read_bytes()
 
 
 @pytest.mark.skipif(shutil.which("unshare") is None or os.geteuid() != 0, reason="needs a file system of its own")
@@ -410,6 +474,8 @@ def test_mpirun_hands_chunks_out(folder: Path) -> None:
     assert len(chunks_in(folder / "many")) == NUM_CHUNKS
     for name in RESULTS[1:]:
         assert (folder / "many" / name).read_bytes() == (folder / "one" / name).read_bytes()
+    assert mpirun("drops.toml", "-o", "many.npz").returncode == 0  # one lock for all processes
+    assert (folder / "many.npz").read_bytes() == (folder / "one/columns.npz").read_bytes()
     chunks_in(folder / "many")[3].unlink()
     run = mpirun(program, "drops.toml", "-o", "many", "--quiet", cwd=folder)
     assert run.returncode == 0 and run.stdout == "" and len(chunks_in(folder / "many")) == NUM_CHUNKS
