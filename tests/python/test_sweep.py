@@ -78,7 +78,7 @@ def test_what_is_finished_is_not_computed_again(tmp_path):
     assert first == {"chunks": 3, "found": 0, "faults": []}
     assert sweep_package.run_shard(SPEC, tmp_path / "sweep") == {"chunks": 6, "found": 3, "faults": []}
     other = {**SPEC, "seed": 6}
-    with pytest.raises(ValueError, match="holds another sweep|other"):
+    with pytest.raises(ValueError, match="holds another sweep: .*; overwrite=True replaces it"):
         sweep_package.run(other, tmp_path / "sweep")
     assert len(sweep_package.run(other, tmp_path / "sweep", overwrite=True)) == N
 
@@ -154,6 +154,10 @@ def test_a_spec_may_be_a_file_a_text_or_a_dict(tmp_path):
         np.testing.assert_array_equal(sweep["theta"], sweeps[0]["theta"])
 
 
+CYCLE = {"start": {}}
+CYCLE["start"]["x"] = CYCLE
+
+
 @pytest.mark.parametrize(
     ("spec", "error", "message"),
     [
@@ -166,6 +170,13 @@ def test_a_spec_may_be_a_file_a_text_or_a_dict(tmp_path):
         ({'a"\n\\': 1}, ValueError, "not known|unknown|allowed"),
         (7, TypeError, "spec: must be"),
         ("absent.toml", FileNotFoundError, "absent.toml"),
+        ("", ValueError, "spec: must be .* got an empty text"),
+        ("\ud800.toml", ValueError, r"spec: must be a path that the system can take, got '\\ud800.toml'"),
+        ("title = '\ud800'", ValueError, "spec: must be valid UTF-8"),
+        ({"title": "a\ud800"}, ValueError, r"title: must be valid UTF-8, got '\\ud800'"),
+        (CYCLE, ValueError, "spec: must not contain itself"),
+        ({"parameters": {"mu": np.ma.array([0.1, 0.2], mask=[0, 1])}}, ValueError, "parameters.mu: .*masked entry, got 1"),
+        ({"parameters": {"mu": {"list": [0.1, np.ma.masked]}}}, ValueError, "parameters.mu.list: .*masked entry, got 1"),
     ],
 )
 def test_bad_specs_are_refused_by_name(spec, error, message):
@@ -174,10 +185,25 @@ def test_bad_specs_are_refused_by_name(spec, error, message):
     assert "\n" not in str(raised.value)
 
 
+def test_names_of_files_may_have_any_bytes(swept, tmp_path):
+    folder = tmp_path / os.fsdecode(b"\xff")
+    folder.mkdir()
+    (folder / "spec.toml").write_text("sweep = 1\nsample = 3\n")
+    with pytest.raises(ValueError, match="\ufffd/spec.toml:2:1: 'sample': unknown key"):
+        sweep_package.run(folder / "spec.toml")
+    swept.save(folder / "sweep.npz")
+    assert_same(sweep_package.load(folder / "sweep.npz"), swept)
+    assert_same(sweep_package.run(SPEC, folder / "sweep"), swept)
+
+
 def test_bad_calls_are_refused(swept, tmp_path):
-    for shard in ((0, 2), (3, 2), (1.5, 2), (1, 0)):
+    for shard in ((0, 2), (3, 2), (1.5, 2), (1, 0), (True, 2), (1, 10**30)):
         with pytest.raises(ValueError, match="shard"):
             sweep_package.run_shard(SPEC, tmp_path / "x", *shard)
+    with pytest.raises(ValueError, match=r"shard: count: must be a whole number in \[1, 1000000\], got 'RS'"):
+        sweep_package.run_shard(SPEC, tmp_path / "x", 3, "RS")
+    with pytest.raises(TypeError, match="folder: must be a path, got 0"):
+        sweep_package.run_shard(SPEC, 0)
     with pytest.raises(ValueError, match="threads"):
         sweep_package.run(SPEC, threads=-1)
     with pytest.raises(ValueError, match="folders"):

@@ -34,7 +34,7 @@ std::vector<double> values_of(const Spec& spec, const std::string& name, std::ui
 }
 
 TEST(SweepSpec, ErrorsNameFieldValueRangeAndPlace) {
-  const std::array<std::array<std::string, 2>, 20> cases = {{
+  const std::array<std::array<std::string, 2>, 23> cases = {{
       {"start.x = 1", "s.toml:1:1: must have the key 'sweep'"},
       {k_head + "start.z = 1", "s.toml:2:7: start.'z': unknown key; did you mean 'x'?"},
       {k_head + "parameters.muu = 1", "s.toml:2:12: parameters.'muu': unknown key; did you mean 'mu'?"},
@@ -65,7 +65,16 @@ TEST(SweepSpec, ErrorsNameFieldValueRangeAndPlace) {
       {k_head + "keep = 'all'", "s.toml:2:8: keep: must be 'columns' or 'statistics', got 'all'"},
       {k_head + "parameters.steps = 0", "s.toml:2:20: parameters.steps: must be in [1, 9999999], got 0"},
       {k_head + "chunk = 1\nsamples = 2000000\nstart.x = { uniform = [0, 1] }",
-       "s.toml:2:9: chunk: chunk must be at least 2 for 2000000 instances, got 1: a sweep has at most 1000000 chunks"},
+       "s.toml:2:9: chunk: must be at least 2 for 2000000 instances, got 1: a sweep has at most 1000000 chunks"},
+      {k_head + "samples = 100000000000\nstart.x = { uniform = [0, 1] }",
+       "s.toml:1:1: chunk: must be at least 100000 for 100000000000 instances, got 65536: a sweep has at most 1000000 "
+       "chunks"},
+      {k_head + "samples = 10000000000000\nstart.x = { uniform = [0, 1] }\nstart.y = { list = [1, 2] }",
+       "s.toml:2:11: samples: must be at most 8388608000000 for 2 cells, as a sweep has at most 16777216000000 "
+       "instances; got 10000000000000"},
+      {k_head +
+           "[start]\nx = { range = [0, 1, 1000000] }\ny = { range = [1, 2, 1000000] }\nvx = { range = [0, 1, 17] }",
+       "s.toml:1:1: vx: the axes must have at most 16777216000000 cells, as a sweep has at most so many instances"},
   }};
   for (const auto& [text, error] : cases) EXPECT_EQ(error_of(text), error);
 }

@@ -80,9 +80,9 @@ struct Spec {
   std::string text{};  // that it was read from
 };
 
-inline constexpr std::uint64_t k_max_instances = 1'000'000'000'000'000;
 inline constexpr std::uint64_t k_max_chunks = 1'000'000;
 inline constexpr std::uint64_t k_max_chunk = 16'777'216;
+inline constexpr std::uint64_t k_max_instances = k_max_chunks * k_max_chunk;
 inline constexpr std::size_t k_max_axis = 1'000'000;
 inline constexpr std::size_t k_max_spec_bytes = std::size_t{64} << 20;
 

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 
 #include "tumble/drop/parameters.hpp"
 #include "tumble/scene/scene_toml.hpp"
 #include "tumble/scene/toml_reader.hpp"
+#include "tumble/sweep/plan.hpp"
 #include "tumble/sweep/spec.hpp"
 
 namespace tumble::sweep {
@@ -315,25 +317,31 @@ class SpecReader {
           "must be 1 where nothing is drawn (uniform, normal, log_uniform), as all would be the same; got {}",
           spec_.samples));
     }
-    std::uint64_t instances = spec_.samples;
-    for (const Quantity& quantity : spec_.quantities) {
-      const auto* grid = std::get_if<Grid>(&quantity.source);
-      if (grid == nullptr) continue;
-      if (instances > k_max_instances / grid->values.size()) {
-        root.refuse_with(fmt::format("a sweep has at most {} instances", k_max_instances));
+    require_size(root);
+  }
+
+  void require_size(const Value& root) const {
+    std::uint64_t cells = 1;
+    for (const Axis& axis : axes_of(spec_)) {
+      if (cells > k_max_instances / axis.values.size()) {
+        root.refuse_with(
+            fmt::format("{}: the axes must have at most {} cells, as a sweep has at most so many instances", axis.name,
+                        k_max_instances));
       }
-      instances *= grid->values.size();
+      cells *= axis.values.size();
     }
-    if ((instances - 1) / spec_.chunk >= k_max_chunks) {
-      const std::uint64_t least = (instances - 1) / k_max_chunks + 1;
-      const Value place = root.find("chunk").value_or(root);
-      place.refuse_with(least > k_max_chunk
-                            ? fmt::format("{} instances are more than a sweep can have: {} chunks of {}", instances,
-                                          k_max_chunks, k_max_chunk)
-                            : fmt::format("chunk must be at least {} for {} instances, got {}: a sweep has at most {} "
-                                          "chunks",
-                                          least, instances, spec_.chunk, k_max_chunks));
+    if (spec_.samples > k_max_instances / cells) {
+      root.at("samples").refuse_with(
+          fmt::format("must be at most {} for {} cells, as a sweep has at most {} instances; got {}",
+                      k_max_instances / cells, cells, k_max_instances, spec_.samples));
     }
+    const std::uint64_t instances = spec_.samples * cells;
+    const std::uint64_t least = (instances - 1) / k_max_chunks + 1;
+    if (spec_.chunk >= least) return;
+    const std::string why = fmt::format("must be at least {} for {} instances, got {}: a sweep has at most {} chunks",
+                                        least, instances, spec_.chunk, k_max_chunks);
+    if (const auto chunk = root.find("chunk")) chunk->refuse_with(why);
+    root.refuse_with("chunk: " + why);
   }
 
   Spec spec_;

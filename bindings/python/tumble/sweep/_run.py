@@ -5,15 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable, Optional
 
 import numpy as np
 
 from tumble._progress import ProgressLine
-from tumble.sweep._spec import SpecLike, read_spec
+from tumble.sweep._spec import PathLike, SpecLike, SpecText, as_bytes, path_text, read_spec
 from tumble.sweep._sweep import Sweep, sweep_module
-
-PathLike = Union[str, "os.PathLike[str]"]
 
 
 def run(
@@ -45,7 +43,7 @@ def run(
     ValueError
         "file:line:column: field: what is allowed, what is there"; or the folder holds something else.
     OSError
-        If a file cannot be read or written.
+        If a file cannot be read or written, or with `overwrite` another process is at work in the folder.
     MemoryError
         If the columns do not fit into memory: ``"keep": "statistics"`` in the spec needs none.
     KeyboardInterrupt
@@ -56,7 +54,7 @@ def run(
         return load(folder, threads=threads)
     read = read_spec(spec)
     with _Progress(progress, sweep_module().plan(*read)["instances"]) as told:
-        return Sweep(sweep_module().simulate(*read, _threads(threads), told))
+        return Sweep(sweep_module().simulate(*read, as_threads(threads), told))
 
 
 def run_shard(
@@ -79,14 +77,27 @@ def run_shard(
     dict
         ``chunks``, how many belong to this part; ``found``, how many of them were there before; ``faults``, why files of
         chunks were computed again.
+
+    Raises
+    ------
+    ValueError, OSError, KeyboardInterrupt
+        As `run`; ValueError also if `index` is not in [1, `count`] or `count` not in [1, 1 000 000].
     """
-    if not (isinstance(count, (int, np.integer)) and isinstance(index, (int, np.integer)) and 1 <= index <= count):
-        raise ValueError(f"shard: must be a whole number of 1 to {count!r}, got {index!r}")
-    read = read_spec(spec)
-    cores = _threads(threads)
-    sweep_module().begin(*read, os.fsencode(folder), bool(overwrite))
-    with _Progress(progress, sweep_module().plan(*read)["instances"] // int(count)) as told:
-        return dict(sweep_module().run_shard(os.fsencode(folder), int(index) - 1, int(count), cores, told))
+    shards = as_whole_number(count, "shard: count", 1, 1_000_000)
+    shard = as_whole_number(index, "shard: index", 1, shards) - 1
+    read, path, cores = read_spec(spec), as_bytes(folder, "folder"), as_threads(threads)
+    _begin(read, path, bool(overwrite))
+    with _Progress(progress, sweep_module().plan(*read)["instances"] // shards) as told:
+        return dict(sweep_module().run_shard(path, shard, shards, cores, told))
+
+
+def _begin(spec: SpecText, folder: bytes, overwrite: bool) -> None:
+    try:
+        sweep_module().begin(*spec, folder, overwrite)
+    except ValueError as error:
+        if "holds another sweep" not in str(error):
+            raise
+        raise ValueError(f"{error}; overwrite=True replaces it") from None
 
 
 def merge(folders: Sequence[PathLike], *, threads: int = 0) -> Sweep:
@@ -101,10 +112,10 @@ def merge(folders: Sequence[PathLike], *, threads: int = 0) -> Sweep:
     """
     if isinstance(folders, (str, bytes, os.PathLike)):
         raise TypeError("folders: must be a list of folders")
-    paths = [os.fsencode(folder) for folder in folders]
+    paths = [as_bytes(folder, "folders") for folder in folders]
     if not paths:
         raise ValueError("folders: must be at least one")
-    return Sweep(sweep_module().read(paths, _threads(threads)))
+    return Sweep(sweep_module().read(paths, as_threads(threads)))
 
 
 def load(path: PathLike, *, threads: int = 0) -> Sweep:
@@ -119,24 +130,26 @@ def load(path: PathLike, *, threads: int = 0) -> Sweep:
     ImportError
         For an .h5 file, if the package h5py is absent.
     """
+    as_bytes(path, "path")
     path = Path(path)
+    shown = path_text(path)
     ending = path.suffix.lower()
     if ending not in (".npz", ".h5") or path.is_dir():
         return merge([path], threads=threads)
     arrays = _read_npz(path) if ending == ".npz" else _read_h5(path)
     if "spec" not in arrays:
-        raise ValueError(f"{path}: is no sweep: it has no array 'spec'")
+        raise ValueError(f"{shown}: is no sweep: it has no array 'spec'")
     text, scene = (_text(arrays.pop(name, "")) for name in ("spec", "scene"))
     numbers = {name: values for name, values in arrays.items() if values.dtype.kind in "fi"}
     statistics = {name: values for name, values in numbers.items() if name.startswith("statistics_")}
     try:
         if statistics:
-            return Sweep(sweep_module().from_statistics(text, str(path), scene, statistics))
+            return Sweep(sweep_module().from_statistics(text, shown, scene, statistics))
         columns = {name: values for name, values in numbers.items() if values.ndim == 1}
-        return Sweep(sweep_module().from_columns(text, str(path), scene, columns))
+        return Sweep(sweep_module().from_columns(text, shown, scene, columns))
     except ValueError as error:
         message = str(error)
-        raise ValueError(message if message.startswith(str(path)) else f"{path}: {message}") from None
+        raise ValueError(message if message.startswith(shown) else f"{shown}: {message}") from None
 
 
 def _text(value: Any) -> str:
@@ -158,10 +171,14 @@ def _read_h5(path: Path) -> dict[str, Any]:
         return {name: np.asarray(data[()]) for name, data in file.items()}
 
 
-def _threads(threads: object) -> int:
-    if isinstance(threads, (int, np.integer)) and not isinstance(threads, bool) and 0 <= threads <= 1024:
-        return int(threads)
-    raise ValueError(f"threads: must be a whole number in [0, 1024], 0 for one for each core, got {threads!r}")
+def as_threads(threads: object) -> int:
+    return as_whole_number(threads, "threads", 0, 1024, ", 0 for one for each core")
+
+
+def as_whole_number(value: object, field: str, low: int, high: int, note: str = "") -> int:
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool) and low <= value <= high:
+        return int(value)
+    raise ValueError(f"{field}: must be a whole number in [{low}, {high}]{note}, got {value!r:.40}")
 
 
 class _Progress:

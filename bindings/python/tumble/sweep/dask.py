@@ -9,8 +9,8 @@ import os
 import tempfile
 from typing import Any, Optional
 
-from tumble.sweep._run import PathLike, load
-from tumble.sweep._spec import SpecLike, read_spec
+from tumble.sweep._run import as_threads, as_whole_number, load
+from tumble.sweep._spec import PathLike, SpecLike, as_bytes, read_spec
 from tumble.sweep._sweep import Sweep, sweep_module
 
 _SHARDS_FOR_EACH_WORKER = 4  # so that no worker is idle for long while the last ones finish
@@ -49,14 +49,13 @@ def run(
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="tumble-sweep-") as made:
             return run(spec, client, os.path.join(made, "sweep"), shards=shards, threads=threads)
-    read = read_spec(spec)
+    read, path, cores = read_spec(spec), os.path.abspath(as_bytes(folder, "folder")), as_threads(threads)
     chunks = int(sweep_module().plan(*read)["chunks"])
     if shards is None:
         shards = _SHARDS_FOR_EACH_WORKER * max(1, len(client.scheduler_info()["workers"]))
-    count = max(1, min(int(shards), chunks))
-    path = os.fsencode(os.path.abspath(folder))
+    count = min(as_whole_number(shards, "shards", 1, 1_000_000), chunks)
     sweep_module().begin(*read, path, False)
-    futures = [client.submit(_work, path, index, count, threads, pure=False) for index in range(count)]
+    futures = [client.submit(_work, path, index, count, cores, pure=False) for index in range(count)]
     try:
         client.gather(futures)
     finally:
