@@ -30,10 +30,7 @@ struct ReferenceRun {
 
 std::vector<ReferenceRun> reference_runs() {
   std::vector<ReferenceRun> runs;
-  for (const auto set :
-       {InstructionSet::scalar, InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (has_instruction_set(set)) runs.push_back({set, batch::reference_hash(set)});
-  }
+  for (const InstructionSet set : instruction_sets()) runs.push_back({set, batch::reference_hash(set)});
   return runs;
 }
 

@@ -11,7 +11,7 @@ packages_of() {
                   python3-matplotlib python3-pil python3-tk python3-pil.imagetk" ;;
     test) echo "libgtest-dev libfclib-dev python3-pytest python3-pytest-xdist python3-hypothesis python3-h5py
                 python3-distributed mypy ffmpeg clang-14 libclang-rt-14-dev clang-format-14 git g++-aarch64-linux-gnu
-                qemu-user" ;;
+                qemu-user libopenmpi-dev openmpi-bin" ;;
     mpi) echo "libopenmpi-dev openmpi-bin" ;;
     bench) echo "libbenchmark-dev" ;;
     bench-lcp) echo "libsiconos-numerics-dev libbullet-dev libdart-dev libfclib-dev" ;;

@@ -36,14 +36,6 @@ double fastest(Function function) {
   return best;
 }
 
-InstructionSet set_of(const std::string& name) {
-  for (const auto set :
-       {InstructionSet::scalar, InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (has_instruction_set(set) && name == to_string(set)) return set;
-  }
-  throw std::invalid_argument("this machine has no " + name);
-}
-
 template <class Real>
 void rate(const std::string& set, const std::string& starts, const std::string& keep, int threads) {
   // States alone stay in the second-level cache; trajectories go to memory.
@@ -61,7 +53,7 @@ void rate(const std::string& set, const std::string& starts, const std::string& 
   batch::BatchSettings settings;
   settings.every = keep == "all" ? 1 : 0;
   settings.threads = threads;
-  settings.instruction_set = set_of(set);
+  settings.instruction_set = instruction_set_named(set, "SET");
   const std::size_t kept = 3 * count * batch::kept_columns(150, settings.every);
   std::vector<Real> q(kept), v(kept);
   std::vector<batch::DropMeasures> measures(keep == "measures" ? count : 0);

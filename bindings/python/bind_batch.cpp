@@ -7,6 +7,7 @@
 #include <string>
 
 #include "convert.hpp"
+#include "without_gil.hpp"
 #include <fmt/format.h>
 
 #include "tumble/batch/simulate_batch.hpp"
@@ -77,29 +78,12 @@ struct Parameters {
 
 std::optional<InstructionSet> as_instruction_set(const py::object& name) {
   if (name.is_none()) return std::nullopt;
-  const std::string word = as_text(name, "instruction_set");
-  std::string names;
-  for (const auto set :
-       {InstructionSet::scalar, InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (!has_instruction_set(set)) continue;
-    if (word == to_string(set)) return set;
-    names += (names.empty() ? "" : ", ") + std::string(to_string(set));
-  }
-  throw std::invalid_argument(fmt::format("instruction_set: must be one of {} on this machine, got '{}'", names, word));
+  return instruction_set_named(as_text(name, "instruction_set"), "instruction_set");
 }
 
 template <class T>
 std::span<T> span_of(py::array_t<T>& array) {
   return {array.mutable_data(), static_cast<std::size_t>(array.size())};
-}
-
-// Ctrl-C and the progress line, from a thread that gave the GIL away.
-std::function<void(std::size_t)> watch(const py::object& progress) {
-  return [&progress](std::size_t done) {
-    const py::gil_scoped_acquire gil;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!progress.is_none()) progress(done);
-  };
 }
 
 template <class Real>
@@ -126,7 +110,7 @@ py::tuple simulate_batch(const py::object& q0, const py::object& v0, const py::d
   const batch::DropStarts<Real> starts{{q_rows.data(), static_cast<std::size_t>(q_rows.size())},
                                        {v_rows.data(), static_cast<std::size_t>(v_rows.size())}};
   const batch::BatchSettings settings{
-      every, threads, {rest_speed, x_min, x_max}, as_instruction_set(instruction_set), watch(progress)};
+      every, threads, {rest_speed, x_min, x_max}, as_instruction_set(instruction_set), watch_for_python(progress)};
   const auto statuses = span_of(status);
   const batch::DropResults<Real> results{span_of(q),
                                          span_of(v),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "convert_trajectory.hpp"
+#include "without_gil.hpp"
 #include <fmt/format.h>
 
 #include "tumble/batch/rollout.hpp"
@@ -219,15 +220,6 @@ class Inputs {
   bool has_count_ = false;
 };
 
-// For Ctrl-C, and to show how far it is.
-auto make_watch(const py::object& progress) {
-  return [progress](Index num_done) {
-    const py::gil_scoped_acquire with_gil;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!progress.is_none()) progress(num_done);
-  };
-}
-
 template <class T>
 std::span<T> span_of(py::array& array) {
   return {static_cast<T*>(array.mutable_data()), static_cast<Index>(array.size())};
@@ -263,17 +255,17 @@ batch::RolloutSettings as_settings(const py::dict& fields) {
   settings.every = as_whole_number(field("every"), "every", 0, most);
   settings.step = as_step_settings(field("solver"), field("num_sweeps"));
   settings.threads = as_whole_number(field("threads"), "threads", 0, 1024);
-  settings.rest_speed = as_number(field("rest_speed"), "rest_speed");
+  settings.measures.rest_speed = as_number(field("rest_speed"), "rest_speed");
   if (!field("region").is_none()) {
     const Array region = as_array(field("region"), "region", {2});
     if (!(region.data()[0] <= region.data()[1])) {
       throw std::invalid_argument(
           fmt::format("region: must be (x_min, x_max) [m] with x_min <= x_max, got {}", short_repr(field("region"))));
     }
-    settings.x_min = region.data()[0];
-    settings.x_max = region.data()[1];
+    settings.measures.x_min = region.data()[0];
+    settings.measures.x_max = region.data()[1];
   }
-  settings.watch = make_watch(field("progress"));
+  settings.watch = watch_for_python(field("progress"));
   return settings;
 }
 

@@ -1,6 +1,7 @@
 // Work that other Python threads need not wait for.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -27,6 +28,16 @@ void without_gil(Work work) {
     }
   }
   if (!failure.empty()) raise_os_error(failure);
+}
+
+// For loops that run without the GIL and call it now and then: raises what Ctrl-C raises, and calls progress(how far),
+// unless that is None.
+inline auto watch_for_python(const pybind11::object& progress) {
+  return [progress](std::size_t done) {
+    const pybind11::gil_scoped_acquire with_gil;
+    if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+    if (!progress.is_none()) progress(done);
+  };
 }
 
 }  // namespace tumble::python

@@ -1,9 +1,10 @@
 // All public headers.
 #pragma once
 
+#include "tumble/batch/measure_settings.hpp"
 #include "tumble/batch/parallel.hpp"
-#include "tumble/batch/rollout.hpp"
 #include "tumble/batch/reference_run.hpp"
+#include "tumble/batch/rollout.hpp"
 #include "tumble/batch/simulate_batch.hpp"
 #include "tumble/contact/island_solver.hpp"
 #include "tumble/contact/restitution.hpp"

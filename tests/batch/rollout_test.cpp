@@ -377,7 +377,7 @@ TEST(Rollout, TellsOfARun) {
   c.velocity = {0, 0, 0, 0, 0, 0, 30, 0, 0};
   RolloutSettings settings;
   settings.duration = 2.0;
-  settings.x_max = 10.0;
+  settings.measures.x_max = 10.0;
   const Results results = run(c.scene, c.finish(3), settings);
   const Trajectory bounces =
       simulate(instance_scene(c.scene, c.instances, 0), {.step_size = 0, .duration = 2.0, .sample_every = 1});
@@ -396,7 +396,8 @@ TEST(Rollout, TellsOfARun) {
   double rest_time = 0.0;
   for (Index k = 0; k + 1 < bounces.time.size(); ++k) {
     const Vector3& v = bounces.bodies(k)[1].velocity;
-    if (std::hypot(v[0], v[1], v[2] * std::sqrt(0.04 / 6.0)) > settings.rest_speed) rest_time = bounces.time[k + 1];
+    if (std::hypot(v[0], v[1], v[2] * std::sqrt(0.04 / 6.0)) > settings.measures.rest_speed)
+      rest_time = bounces.time[k + 1];
   }
   const RolloutMeasures& m = results.measures[0];
   EXPECT_GT(impacts, 3);
@@ -514,11 +515,11 @@ TEST(Rollout, RefusesInOneLine) {
   settings.every = -1;
   EXPECT_EQ(refusal(c, settings), "every: must be >= 0, got -1");
   settings = {};
-  settings.rest_speed = k_nan;
+  settings.measures.rest_speed = k_nan;
   EXPECT_EQ(refusal(c, settings), "rest_speed: must be >= 0 m/s, got nan");
   settings = {};
-  settings.x_min = 1.0;
-  settings.x_max = 0.0;
+  settings.measures.x_min = 1.0;
+  settings.measures.x_max = 0.0;
   EXPECT_EQ(refusal(c, settings), "x_min: must be <= x_max, which is 0 m, got 1 m");
   settings = {};
   settings.threads = 1025;

@@ -21,15 +21,6 @@ namespace {
 using test::Random;
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<InstructionSet> sets() {
-  std::vector<InstructionSet> all;
-  for (const InstructionSet set :
-       {InstructionSet::scalar, InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (has_instruction_set(set)) all.push_back(set);
-  }
-  return all;
-}
-
 // Starts and parameters of N drops.
 struct Drops {
   std::vector<double> q0, v0;
@@ -154,7 +145,7 @@ TEST(SimulateBatch, GivesTheBitsOfOneByOneForWildDropsByEveryInstructionSet) {
   }
   EXPECT_GT(solved, drops.size() / 4);  // or the test would say little
   EXPECT_LT(solved, drops.size());
-  for (const InstructionSet set : sets()) {
+  for (const InstructionSet set : instruction_sets()) {
     expect_same(run(drops.starts(), drops.parameters(), {.instruction_set = set}), first, std::string(to_string(set)));
   }
 }
@@ -167,7 +158,7 @@ TEST(SimulateBatch, KeepsColumnsAsOneByOneAtEverySizeFrom1To70) {
       drops.columns = 41;
       for (std::size_t i = 0; i < count; ++i) i % 9 == 8 ? add_wild(drops, random) : add_usual(drops, random);
       const std::size_t kept = kept_columns(41, every);
-      for (const InstructionSet set : sets()) {
+      for (const InstructionSet set : instruction_sets()) {
         const Arrays<double> batch =
             run(drops.starts(), drops.parameters(), {.every = every, .threads = 2, .instruction_set = set});
         for (std::size_t i = 0; i < count; ++i) {
@@ -248,7 +239,7 @@ TEST(SimulateBatch, OneBadDropTouchesNoOther) {
     } else {
       spoilt.v0[3 * 41 + 1] = bad;
     }
-    for (const InstructionSet set : sets()) {
+    for (const InstructionSet set : instruction_sets()) {
       const Arrays<double> batch = run(spoilt.starts(), spoilt.parameters(), {.every = 1, .instruction_set = set});
       EXPECT_EQ(batch.status[41], DropStatus::invalid);
       EXPECT_EQ(batch.columns[41], 0);
@@ -301,7 +292,7 @@ TEST(SimulateBatch, MeasuresAreThoseOfTheRecord) {
     const double quarters = std::nearbyint(record.trajectory.q_at(p.columns - 1)[2] / 1.5707963267948966);
     EXPECT_EQ(m.face, static_cast<int>(std::fmod(std::fmod(quarters, 4.0) + 4.0, 4.0))) << i;
   }
-  for (const InstructionSet set : sets()) {
+  for (const InstructionSet set : instruction_sets()) {
     expect_same(run(drops.starts(), drops.parameters(), {.measures = settings, .instruction_set = set}), first,
                 std::string(to_string(set)));
   }
@@ -324,7 +315,7 @@ TEST(SimulateBatch, InSinglePrecisionIsEqualByEveryInstructionSetAndNumberOfThre
   const std::vector<float> q0 = as_float(drops.q0), v0 = as_float(drops.v0);
   for (const int every : {0, 4}) {
     const Arrays<float> first = run(DropStarts<float>{q0, v0}, drops.parameters(), {.every = every});
-    for (const InstructionSet set : sets()) {
+    for (const InstructionSet set : instruction_sets()) {
       for (const int threads : {1, 3}) {
         expect_same(run(DropStarts<float>{q0, v0}, drops.parameters(),
                         {.every = every, .threads = threads, .instruction_set = set}),
@@ -379,9 +370,9 @@ TEST(SimulateBatch, RefusesWhatIsWrongForAll) {
   EXPECT_EQ(message(starts, {}, {.every = -1}, {}), "every: must be >= 0, got -1");
   EXPECT_EQ(message(starts, {}, {.threads = 2000}, {}),
             "threads: must be in [0, 1024], 0 for one for each core, got 2000");
-  EXPECT_EQ(message(starts, {}, {.measures = {.rest_speed = k_nan}}, {}), "rest_speed: must be >= 0, got nan m/s");
+  EXPECT_EQ(message(starts, {}, {.measures = {.rest_speed = k_nan}}, {}), "rest_speed: must be >= 0 m/s, got nan");
   EXPECT_EQ(message(starts, {}, {.measures = {.x_min = 1.0, .x_max = 0.0}}, {}),
-            "x_min, x_max: must be in order, got 1 m and 0 m");
+            "x_min: must be <= x_max, which is 0 m, got 1 m");
   EXPECT_EQ(message(starts, {}, {.every = 1}, {.q = q}), "results.q: must have 900 numbers, got 6");
   EXPECT_EQ(message(starts, {}, {}, {.q = q}), "");
 }

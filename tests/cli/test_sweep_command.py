@@ -464,25 +464,28 @@ def test_errors_in_the_sweep_of_a_scene(folder: Path, before: str, after: str, e
     assert not (folder / "boxes.sweep").exists()
 
 
+MPI_ENVIRONMENT = {
+    **os.environ,
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+}
+
+
+def mpirun(program: Path, *words: object, cwd: Path) -> subprocess.CompletedProcess[str]:
+    command = ["mpirun", "-n", "3", str(program), "sweep", *(str(word) for word in words)]
+    return subprocess.run(command, cwd=cwd, env=MPI_ENVIRONMENT, capture_output=True, text=True, timeout=120)
+
+
+def test_a_program_without_mpi_says_so_under_mpirun(folder: Path) -> None:
+    run = mpirun(PROGRAM, "drops.toml", "-o", "many", cwd=folder)
+    assert run.returncode != 0 and "tumble: this build has no MPI: build with -DTUMBLE_MPI=ON" in run.stderr
+    assert not (folder / "many").exists()
+
+
 def test_mpirun_hands_chunks_out(folder: Path) -> None:
-    """Needs a program that was built with TUMBLE_MPI."""
-    if shutil.which("mpirun") is None:
-        pytest.skip("no mpirun")
-    environment = {
-        **os.environ,
-        "OMPI_ALLOW_RUN_AS_ROOT": "1",
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-        "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    }
-
-    def mpirun(*words: object) -> subprocess.CompletedProcess[str]:
-        command = ["mpirun", "-n", "3", str(PROGRAM), "sweep", *(str(word) for word in words)]
-        return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120)
-
-    run = mpirun("drops.toml", "-o", "many")
-    if "this build has no MPI" in run.stderr:
-        assert not (folder / "many").exists()
-        pytest.skip("this build has no MPI")
+    program = PROGRAM.with_name("tumble_mpi")
+    run = mpirun(program, "drops.toml", "-o", "many", cwd=folder)
     assert run.returncode == 0, run.stderr
     succeed("sweep", "drops.toml", "-o", "one", cwd=folder)
     assert len(chunks_in(folder / "many")) == NUM_CHUNKS
@@ -491,14 +494,14 @@ def test_mpirun_hands_chunks_out(folder: Path) -> None:
     assert mpirun("drops.toml", "-o", "many.npz").returncode == 0  # one lock for all processes
     assert (folder / "many.npz").read_bytes() == (folder / "one/columns.npz").read_bytes()
     chunks_in(folder / "many")[3].unlink()
-    run = mpirun("drops.toml", "-o", "many", "--quiet")
+    run = mpirun(program, "drops.toml", "-o", "many", "--quiet", cwd=folder)
     assert run.returncode == 0 and run.stdout == "" and len(chunks_in(folder / "many")) == NUM_CHUNKS
 
     (folder / "drops.toml").write_text(SPEC.replace("seed = 7", "seed = 8"))
-    run = mpirun("drops.toml", "-o", "many")
+    run = mpirun(program, "drops.toml", "-o", "many", cwd=folder)
     assert run.returncode != 0 and "tumble: many: holds another sweep" in run.stderr
     (folder / "drops.toml").write_text(LONG)
-    process = subprocess.Popen(["mpirun", "-n", "3", str(PROGRAM), "sweep", "drops.toml", "-o", "part"], cwd=folder, env=environment)
+    process = subprocess.Popen(["mpirun", "-n", "3", str(program), "sweep", "drops.toml", "-o", "part"], cwd=folder, env=MPI_ENVIRONMENT)
     while not chunks_in(folder / "part"):
         time.sleep(0.01)
     process.kill()

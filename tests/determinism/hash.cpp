@@ -18,6 +18,8 @@
 #include "tumble/lcp/lemke_lu.hpp"
 #include "tumble/lcp/one_contact_lanes.hpp"
 #include "tumble/lcp/robust.hpp"
+#include "tumble/math/bit_hash.hpp"
+#include "tumble/math/distributions.hpp"
 #include "tumble/scene/scene_toml.hpp"
 #include "tumble/trajectory/simulate.hpp"
 
@@ -25,20 +27,7 @@ namespace {
 
 using tumble::test::Random;
 
-class Hash {  // FNV-1a over 64-bit words
- public:
-  void add(std::span<const double> values) {
-    for (const double value : values) {
-      std::uint64_t bits;
-      std::memcpy(&bits, &value, sizeof bits);
-      state_ = (state_ ^ bits) * 0x100000001b3u;
-    }
-  }
-  std::uint64_t value() const { return state_; }
-
- private:
-  std::uint64_t state_ = 0xcbf29ce484222325u;
-};
+using Hash = tumble::BitHash;
 
 // 2000 drops of 300 steps, over all the parameters; angles of many turns included.
 std::uint64_t hash_of_drops() {
@@ -67,11 +56,21 @@ std::uint64_t hash_of_drops() {
 // Batches of drops, by every instruction set that this processor has.
 std::uint64_t hash_of_batches() {
   std::uint64_t common = tumble::batch::reference_hash(tumble::InstructionSet::scalar);
-  for (const auto set :
-       {tumble::InstructionSet::baseline, tumble::InstructionSet::avx2, tumble::InstructionSet::avx512}) {
-    if (tumble::has_instruction_set(set) && tumble::batch::reference_hash(set) != common) return 0;
+  for (const tumble::InstructionSet set : tumble::instruction_sets()) {
+    if (tumble::batch::reference_hash(set) != common) return 0;
   }
   return common;
+}
+
+// 10000 draws of each distribution, from the tails too.
+std::uint64_t hash_of_draws() {
+  Hash hash;
+  for (std::uint64_t i = 0; i < 10000; ++i) {
+    const std::uint64_t word = tumble::draw_word(7, i, i % 5);
+    hash.add(std::array{tumble::uniform(word, -1.0, 3.0), tumble::normal(word, 0.5, 2.0),
+                        tumble::log_uniform(word, 1e-9, 1e12), tumble::normal(i, 0.0, 1.0)});
+  }
+  return hash.value();
 }
 
 // Lemke on 2000 contact LCPs and 200 dense ones.
@@ -176,6 +175,7 @@ std::uint64_t hash_of_scenes() {
 int main() {
   std::printf("drops %016llx\n", static_cast<unsigned long long>(hash_of_drops()));
   std::printf("batches %016llx\n", static_cast<unsigned long long>(hash_of_batches()));
+  std::printf("draws %016llx\n", static_cast<unsigned long long>(hash_of_draws()));
   std::printf("lcps %016llx\n", static_cast<unsigned long long>(hash_of_lcps()));
   std::printf("robust %016llx\n", static_cast<unsigned long long>(hash_of_robust()));
   std::printf("contacts %016llx\n", static_cast<unsigned long long>(hash_of_contacts()));

@@ -1,5 +1,6 @@
 """What the tests of scenes share."""
 
+import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -36,3 +37,20 @@ def refuse_in_one_line(call: Callable[[], object], error: type[Exception], messa
 
 def run_python(code: str, **more: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, **more)  # type: ignore[call-overload]
+
+
+def shown_on_a_terminal(code: str) -> bytes:
+    """What the code writes to standard error where that is a terminal; it must write nothing where it is none."""
+    assert run_python(code).stderr == ""
+    ours, theirs = os.openpty()
+    child = subprocess.Popen([sys.executable, "-c", code], stderr=theirs)
+    os.close(theirs)
+    shown = b""
+    try:
+        while piece := os.read(ours, 4096):
+            shown += piece
+    except OSError:  # the other end is closed
+        pass
+    os.close(ours)
+    assert child.wait(timeout=60) == 0
+    return shown

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 import tumble
+from scene_samples import HEEDS_CTRL_C, shown_on_a_terminal
 from tumble import _core
 from tumble.drop import Batch, Parameters, simulate, simulate_batch
 
@@ -154,9 +155,9 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"keep": "last"}, "keep: must be 'final', 'all', 'measures' or a whole number >= 1, got 'last'"),
     ({"threads": -1}, "threads: must be a whole number in [0, 1024], 0 for one for each core, got -1"),
     ({"threads": 1.5}, "threads: must be a whole number in [0, 1024], 0 for one for each core, got 1.5"),
-    ({"rest_speed": -1}, "rest_speed: must be >= 0, got -1 m/s"),
-    ({"region": (1, 0)}, "x_min, x_max: must be in order, got 1 m and 0 m"),
-    ({"region": 3}, "region: must be two numbers, got 3"),
+    ({"rest_speed": -1}, "rest_speed: must be >= 0 m/s, got -1"),
+    ({"region": (1, 0)}, "region: must be (x_min, x_max) [m] with x_min <= x_max, got (1, 0)"),
+    ({"region": 3}, "region: must be (x_min, x_max) [m] with x_min <= x_max, got 3"),
     ({"dtype": np.int32}, "dtype: must be float64 or float32, got int32"),
 ]
 
@@ -195,12 +196,8 @@ def test_ctrl_c_ends_it_soon() -> None:
         "print('begun', flush=True)\n"
         "tumble.simulate_batch(q, 0 * q, tumble.drop.Parameters(columns=1000000), threads=2)"
     )
-    # SIGINT as a terminal has it: a job of a shell's background starts with it ignored.
-    child = subprocess.Popen(
-        [sys.executable, "-c", code],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )  # fmt: skip
+    command = [sys.executable, "-c", HEEDS_CTRL_C + code]
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert child.stdout is not None and child.stdout.readline() == "begun\n"
     time.sleep(0.5)
     child.send_signal(signal.SIGINT)
@@ -217,20 +214,8 @@ tumble.simulate_batch(q, 0 * q, tumble.drop.Parameters(columns=500), progress=Tr
 
 
 def test_progress_is_shown_on_a_terminal_only() -> None:
-    run = subprocess.run([sys.executable, "-c", PROGRESS], capture_output=True, text=True, check=True)
-    assert run.stderr == ""
-    ours, theirs = os.openpty()
-    child = subprocess.Popen([sys.executable, "-c", PROGRESS], stderr=theirs)
-    os.close(theirs)
-    shown = b""
-    try:
-        while piece := os.read(ours, 4096):
-            shown += piece
-    except OSError:  # the other end is closed
-        pass
-    os.close(ours)
-    assert child.wait() == 0
-    assert b" of 200000 drops" in shown and shown.endswith(b"\r\x1b[K")
+    shown = shown_on_a_terminal(PROGRESS)
+    assert b" of 200000 drops" in shown and shown.endswith(b"\r\x1b[K"), shown
 
 
 @pytest.mark.parametrize("parameters", [{"dt": 1e38}, {"dt": 10.0, "g": 1e36}, {"delta": 1e39}, {"l": 1e-46}, {"g": 1e39}])

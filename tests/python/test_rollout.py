@@ -1,8 +1,5 @@
 """tumble.rollout: the bits of simulate, what it returns, and what it refuses."""
 
-import os
-import subprocess
-import sys
 import threading
 import time
 import warnings
@@ -11,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 import tumble
-from scene_samples import HEEDS_CTRL_C, ROOT, load, refuse_in_one_line, run_python
+from scene_samples import HEEDS_CTRL_C, ROOT, load, refuse_in_one_line, run_python, shown_on_a_terminal
 from tumble import Rollout, Scene, rollout, simulate
 
 NAN = float("nan")
@@ -282,19 +279,7 @@ tumble.rollout(tumble.Scene.load({scene!r}), friction=[0.1] * 100, duration=8, t
 
 
 def test_progress_is_shown_on_a_terminal_only() -> None:
-    code = PROGRESS.format(scene=str(ROOT / "scenes/drop.toml"))
-    assert run_python(code).stderr == ""
-    ours, theirs = os.openpty()
-    child = subprocess.Popen([sys.executable, "-c", code], stderr=theirs)
-    os.close(theirs)
-    shown = b""
-    try:
-        while piece := os.read(ours, 4096):
-            shown += piece
-    except OSError:  # the other end is closed
-        pass
-    os.close(ours)
-    assert child.wait(timeout=60) == 0
+    shown = shown_on_a_terminal(PROGRESS.format(scene=str(ROOT / "scenes/drop.toml")))
     assert b" of 100  " in shown and b" s left" in shown and shown.endswith(b"\r\x1b[K"), shown
 
 

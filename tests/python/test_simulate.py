@@ -1,9 +1,6 @@
 """tumble.simulate: known answers, what it returns, and what it refuses."""
 
-import os
 import signal
-import subprocess
-import sys
 import threading
 import time
 import warnings
@@ -12,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 import tumble
-from scene_samples import HEEDS_CTRL_C, ROOT, box_on_floor, load, refuse_in_one_line, run_python
+from scene_samples import HEEDS_CTRL_C, ROOT, box_on_floor, load, refuse_in_one_line, run_python, shown_on_a_terminal
 from tumble import Knot, Scene, Wrench, simulate
 
 G = 9.81
@@ -252,19 +249,7 @@ tumble.simulate(tumble.Scene.load({scene!r}), duration=200, progress=True, conta
 
 
 def test_progress_is_shown_on_a_terminal_only() -> None:
-    code = PROGRESS.format(scene=str(ROOT / "scenes/drop.toml"))
-    assert run_python(code).stderr == ""
-    ours, theirs = os.openpty()
-    child = subprocess.Popen([sys.executable, "-c", code], stderr=theirs)
-    os.close(theirs)
-    shown = b""
-    try:
-        while piece := os.read(ours, 4096):
-            shown += piece
-    except OSError:  # the other end is closed
-        pass
-    os.close(ours)
-    assert child.wait(timeout=60) == 0
+    shown = shown_on_a_terminal(PROGRESS.format(scene=str(ROOT / "scenes/drop.toml")))
     assert b" %  " in shown and b" s left" in shown and shown.endswith(b"\r\x1b[K"), shown
 
 

@@ -200,10 +200,12 @@ def _number(name: str, value: object) -> float:
 
 def _region(region: tuple[float, float]) -> tuple[float, float]:
     try:
-        x_min, x_max = region
-    except (TypeError, ValueError):
-        raise ValueError(f"region: must be two numbers, got {region!r}") from None
-    return _number("region", x_min), _number("region", x_max)
+        x_min, x_max = (float(x) for x in region)
+        if x_min <= x_max:
+            return x_min, x_max
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ValueError(f"region: must be (x_min, x_max) [m] with x_min <= x_max, got {region!r}") from None
 
 
 def _threads(threads: object) -> int:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tumble import _core
 from tumble._bodies import Body, Material
+from tumble._body_arrays import BodyArrays
 from tumble._progress import ProgressLine
 from tumble._scene import Scene, require_scene
 from tumble._trajectory import BodyName, index_of
@@ -23,7 +24,7 @@ _LEDGER = ["kinetic", "potential", "external_work", "friction_loss", "impact_los
 _STATUSES = np.array(_core.STATUSES)
 
 
-class BodyRollout:
+class BodyRollout(BodyArrays):
     """One body in all instances; arrays are views of those of the whole rollout.
 
     Attributes
@@ -36,37 +37,7 @@ class BodyRollout:
     x, y, angle, vx, vy, omega : ndarray, shape (N,), or (N, T)
     """
 
-    __slots__ = ("body", "time", "pose", "velocity")
-
-    def __init__(self, body: Body, time: NDArray[Any], pose: NDArray[Any], velocity: NDArray[Any]) -> None:
-        self.body = body
-        self.time = time
-        self.pose = pose
-        self.velocity = velocity
-
-    @property
-    def x(self) -> NDArray[np.float64]:
-        return self.pose[:, 0]
-
-    @property
-    def y(self) -> NDArray[np.float64]:
-        return self.pose[:, 1]
-
-    @property
-    def angle(self) -> NDArray[np.float64]:
-        return self.pose[:, 2]
-
-    @property
-    def vx(self) -> NDArray[np.float64]:
-        return self.velocity[:, 0]
-
-    @property
-    def vy(self) -> NDArray[np.float64]:
-        return self.velocity[:, 1]
-
-    @property
-    def omega(self) -> NDArray[np.float64]:
-        return self.velocity[:, 2]
+    __slots__ = ()
 
     def __repr__(self) -> str:
         return f"<BodyRollout: {self.body.name or self.body.index!r}, {len(self.pose)} instances>"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from tumble import _core
 from tumble._bodies import Body
+from tumble._body_arrays import BodyArrays
 from tumble._files import as_target, output_module
 from tumble._scene import Scene
 from tumble._view import Page, view
@@ -24,7 +25,7 @@ def index_of(scene: Scene, body: BodyName) -> int:
     return scene._core.find_body(body.name or body.index if isinstance(body, Body) else body)
 
 
-class BodyTrajectory:
+class BodyTrajectory(BodyArrays):
     """The course of one body; arrays over T samples, views of those of the whole trajectory.
 
     Attributes
@@ -38,37 +39,7 @@ class BodyTrajectory:
         Their columns.
     """
 
-    __slots__ = ("body", "time", "pose", "velocity")
-
-    def __init__(self, body: Body, time: NDArray[Any], pose: NDArray[Any], velocity: NDArray[Any]) -> None:
-        self.body = body
-        self.time = time
-        self.pose = pose
-        self.velocity = velocity
-
-    @property
-    def x(self) -> NDArray[np.float64]:
-        return self.pose[:, 0]
-
-    @property
-    def y(self) -> NDArray[np.float64]:
-        return self.pose[:, 1]
-
-    @property
-    def angle(self) -> NDArray[np.float64]:
-        return self.pose[:, 2]
-
-    @property
-    def vx(self) -> NDArray[np.float64]:
-        return self.velocity[:, 0]
-
-    @property
-    def vy(self) -> NDArray[np.float64]:
-        return self.velocity[:, 1]
-
-    @property
-    def omega(self) -> NDArray[np.float64]:
-        return self.velocity[:, 2]
+    __slots__ = ()
 
     def __repr__(self) -> str:
         return f"<BodyTrajectory: {self.body.name or self.body.index!r}, {len(self.time)} samples>"

@@ -49,24 +49,16 @@ struct States {
 // ends of the range, contacts that are not all but singular. A drop for which one step was not is marked; its state
 // means nothing then. Beyond `size`, up to the next multiple of k_padding, the arrays hold anything harmless.
 template <class Real>
-using AdvanceDrops = void (*)(DropBlock<Real>& block, States<Real> from, States<Real> to, std::size_t size,
-                              int first_column, int num_steps, const MeasureBounds<Real>* bounds);
+using AdvanceDrops = void(DropBlock<Real>& block, States<Real> from, States<Real> to, std::size_t size,
+                          int first_column, int num_steps, const MeasureBounds<Real>* bounds);
 
 constexpr std::size_t k_padding = 16;  // no instruction set has more lanes
 
-#define TUMBLE_DECLARE_ADVANCE_DROPS(set)                                                             \
-  void advance_drops_##set(DropBlock<double>&, States<double>, States<double>, std::size_t, int, int, \
-                           const MeasureBounds<double>*);                                             \
-  void advance_drops_##set(DropBlock<float>&, States<float>, States<float>, std::size_t, int, int,    \
-                           const MeasureBounds<float>*);
-TUMBLE_DECLARE_ADVANCE_DROPS(scalar)
-TUMBLE_DECLARE_ADVANCE_DROPS(baseline)
-TUMBLE_DECLARE_ADVANCE_DROPS(avx2)
-TUMBLE_DECLARE_ADVANCE_DROPS(avx512)
-#undef TUMBLE_DECLARE_ADVANCE_DROPS
+AdvanceDrops<double> advance_drops_scalar, advance_drops_baseline, advance_drops_avx2, advance_drops_avx512;
+AdvanceDrops<float> advance_drops_scalar, advance_drops_baseline, advance_drops_avx2, advance_drops_avx512;
 
 template <class Real>
-AdvanceDrops<Real> advance_drops(InstructionSet set) {
+AdvanceDrops<Real>* advance_drops(InstructionSet set) {
 #if TUMBLE_HAS_X86_SETS
   if (set == InstructionSet::avx512) return advance_drops_avx512;
   if (set == InstructionSet::avx2) return advance_drops_avx2;

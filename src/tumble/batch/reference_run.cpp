@@ -1,11 +1,10 @@
 #include "tumble/batch/reference_run.hpp"
 
 #include <array>
-#include <cstring>
-#include <span>
 #include <vector>
 
 #include "tumble/batch/simulate_batch.hpp"
+#include "tumble/math/bit_hash.hpp"
 #include "tumble/math/distributions.hpp"
 
 namespace tumble::batch {
@@ -13,23 +12,6 @@ namespace {
 
 constexpr std::size_t k_count = 2000;
 constexpr int k_columns = 301, k_every = 10;
-
-class Hash {  // FNV-1a over 64-bit words
- public:
-  template <class Real>
-  void add(std::span<const Real> values) {
-    for (const Real value : values) add(static_cast<double>(value));
-  }
-  void add(double value) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    state_ = (state_ ^ bits) * 0x100000001b3u;
-  }
-  std::uint64_t value() const { return state_; }
-
- private:
-  std::uint64_t state_ = 0xcbf29ce484222325u;
-};
 
 // l m mu eps dt delta g, x y theta vx vy omega.
 using Numbers = std::array<double, 13>;
@@ -44,7 +26,7 @@ Numbers numbers_of_drop(std::size_t i) {
 }
 
 template <class Real>
-void add_drops(Hash& hash, InstructionSet set) {
+void add_drops(BitHash& hash, InstructionSet set) {
   std::vector<Real> q0, v0;
   std::array<std::vector<double>, 7> values;
   for (std::size_t i = 0; i < k_count; ++i) {
@@ -58,8 +40,8 @@ void add_drops(Hash& hash, InstructionSet set) {
   simulate_batch<Real>({q0, v0},
                        {values[0], values[1], values[2], values[3], values[4], values[5], values[6], k_columns},
                        {.every = k_every, .instruction_set = set}, {.q = q, .v = v, .measures = measures});
-  hash.add(std::span<const Real>(q));
-  hash.add(std::span<const Real>(v));
+  hash.add(q);
+  hash.add(v);
   for (const DropMeasures& m : measures) {
     // NaN, "none", has other bits on other machines.
     for (const double value : {m.last_contact, m.rest_time, m.max_impulse, m.energy_lost, m.escape_time,
@@ -72,7 +54,7 @@ void add_drops(Hash& hash, InstructionSet set) {
 }  // namespace
 
 std::uint64_t reference_hash(InstructionSet set) {
-  Hash hash;
+  BitHash hash;
   add_drops<double>(hash, set);
   add_drops<float>(hash, set);
   return hash.value();

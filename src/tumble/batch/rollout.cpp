@@ -30,13 +30,7 @@ constexpr Index k_chunks_per_thread = 16;  // fewer than that, and threads would
 RunSettings checked_run_settings(const Scene& scene, const RolloutSettings& settings) {
   if (settings.every < 0) throw std::invalid_argument(fmt::format("every: must be >= 0, got {}", settings.every));
   require_threads(settings.threads);
-  if (!(settings.rest_speed >= 0.0)) {
-    throw std::invalid_argument(fmt::format("rest_speed: must be >= 0 m/s, got {}", settings.rest_speed));
-  }
-  if (!(settings.x_min <= settings.x_max)) {
-    throw std::invalid_argument(
-        fmt::format("x_min: must be <= x_max, which is {} m, got {} m", settings.x_max, settings.x_min));
-  }
+  validate(settings.measures);
   validate(scene);
   return run_settings(scene, {.step_size = settings.step_size, .duration = settings.duration, .step = settings.step});
 }
@@ -56,22 +50,13 @@ void require_size(const char* field, std::span<T> array, Index size) {
 // Gives the memory of the steps the masses and laws of an instance, as if it had been made for it.
 void take(const Scene& scene, const InstanceEditor& editor, StepWorkspace& workspace) {
   StepWorkspace::Parts& parts = workspace.parts();
-  for (const int body : editor.masses()) {
-    const auto i = static_cast<Index>(body);
-    const Vector3 m = {scene.bodies[i].mass, scene.bodies[i].mass, scene.bodies[i].moment_of_inertia};
-    parts.mass[i] = m;
-    parts.inverse_mass[i] = {1.0 / m[0], 1.0 / m[1], 1.0 / m[2]};
-  }
-  if (!editor.edits_laws()) return;
-  const Index n = scene.materials.size();
-  for (Index k = 0; k < parts.laws.size(); ++k) {
-    parts.laws[k] = contact_law(scene, static_cast<int>(k / n), static_cast<int>(k % n));
-  }
+  for (const int body : editor.masses()) parts.take_mass(scene, static_cast<Index>(body));
+  if (editor.edits_laws()) parts.take_laws(scene);
 }
 
 // What a thread works with.
 struct Worker {
-  Worker(const Scene& of, const RolloutSettings& settings) : scene(of), workspace(scene), observer(settings) {}
+  Worker(const Scene& of, const RolloutSettings& settings) : scene(of), workspace(scene), observer(settings.measures) {}
 
   Scene scene;  // that of the instance at hand
   StepWorkspace workspace;

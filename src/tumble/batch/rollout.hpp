@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tumble/batch/measure_settings.hpp"
 #include "tumble/scene/scene.hpp"
 #include "tumble/step/time_step.hpp"
 #include "tumble/trajectory/trajectory.hpp"
@@ -68,10 +69,7 @@ struct RolloutSettings {
   int every = 0;           // samples that are kept: 0 the last alone; k >= 1 those of `simulate` with sample_every k
   StepSettings step{};
   int threads = 0;  // 0: one for each core
-  // Bounds sqrt(v_x^2 + v_y^2 + (I / m) omega^2) [m/s], >= 0: the speed that all of the kinetic energy would give.
-  double rest_speed = 1e-3;
-  double x_min = -std::numeric_limits<double>::infinity();  // [m]
-  double x_max = std::numeric_limits<double>::infinity();   // [m]
+  MeasureSettings measures{.rest_speed = 1e-3};
   // Called about every 20 ms from the calling thread with the number of instances done; what it throws ends the rollout
   // within a step.
   std::function<void(std::size_t num_done)> watch{};

@@ -14,7 +14,7 @@ namespace tumble::batch {
 // Of one run after another.
 class RunObserver {
  public:
-  explicit RunObserver(const RolloutSettings& settings)
+  explicit RunObserver(const MeasureSettings& settings)
       : fast_(settings.rest_speed * settings.rest_speed), x_min_(settings.x_min), x_max_(settings.x_max) {}
 
   void start(const Scene& scene, const State& state) {

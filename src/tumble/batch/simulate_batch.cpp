@@ -64,13 +64,7 @@ void require_lengths(const DropStarts<Real>& starts, const DropParameters& param
 void validate(const BatchSettings& settings) {
   require_threads(settings.threads);
   if (settings.every < 0) throw std::invalid_argument(fmt::format("every: must be >= 0, got {}", settings.every));
-  const auto& [rest_speed, x_min, x_max] = settings.measures;
-  if (!(rest_speed >= 0.0)) {
-    throw std::invalid_argument(fmt::format("rest_speed: must be >= 0, got {} m/s", rest_speed));
-  }
-  if (!(x_min <= x_max)) {
-    throw std::invalid_argument(fmt::format("x_min, x_max: must be in order, got {} m and {} m", x_min, x_max));
-  }
+  validate(settings.measures);
   if (settings.instruction_set && !has_instruction_set(*settings.instruction_set)) {
     throw std::invalid_argument(
         fmt::format("instruction_set: this machine has no {}", to_string(*settings.instruction_set)));
@@ -164,6 +158,8 @@ class BlockRunner {
     return has_common_parameters_ ? common_ : parameters_at(parameters_, i);
   }
 
+  drop::State start_of(std::size_t i) const { return {row(starts_.q0, i), row(starts_.v0, i)}; }
+
   void put_parameters(std::size_t j, const drop::Parameters& p) {
     block_.half_l[j] = static_cast<Real>(0.5 * p.l);
     block_.inverse_m[j] = static_cast<Real>(1.0 / p.m);
@@ -233,18 +229,19 @@ class BlockRunner {
       } else {
         put_state(j, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0});
       }
-      if (measures) note(j);
+      if (measures) note(first + j, j);
     }
     for (std::size_t j = count; j % k_padding != 0; ++j) put_state(j, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0});
   }
 
-  void note(std::size_t j) {
-    const Real vx = states_[3][j], vy = states_[4][j], omega = states_[5][j], x = states_[0][j];
-    const Real speed_squared = (vx * vx + vy * vy) + block_.gyration[j] * (omega * omega);
-    block_.last_contact[j] = Real(-1);
-    block_.impacts[j] = block_.max_force_time[j] = block_.was_closed[j] = Real(0);
-    block_.last_moving[j] = speed_squared > bounds_.rest_speed_squared ? Real(0) : Real(-1);
-    block_.escape[j] = x < bounds_.x_min || x > bounds_.x_max ? Real(0) : Real(-1);
+  void note(std::size_t i, std::size_t j) {
+    const NotedColumns noted = note_start(start_of(i), parameters_of(i), settings_.measures);
+    block_.last_contact[j] = static_cast<Real>(noted.last_contact);
+    block_.impacts[j] = static_cast<Real>(noted.impacts);
+    block_.max_force_time[j] = static_cast<Real>(noted.max_force_time);
+    block_.last_moving[j] = static_cast<Real>(noted.last_moving);
+    block_.escape[j] = static_cast<Real>(noted.escape);
+    block_.was_closed[j] = Real(0);
   }
 
   // Results of drop i, which is number j of the block; columns are there already.
@@ -265,8 +262,7 @@ class BlockRunner {
     if (results_.measures.empty()) return;
     const NotedColumns noted{block_.last_contact[j], block_.impacts[j], block_.max_force_time[j], block_.last_moving[j],
                              block_.escape[j]};
-    results_.measures[i] = drop_measures(noted, {row(starts_.q0, i), row(starts_.v0, i)},
-                                         {{last[0], last[1], last[2]}, {last[3], last[4], last[5]}},
+    results_.measures[i] = drop_measures(noted, start_of(i), {{last[0], last[1], last[2]}, {last[3], last[4], last[5]}},
                                          parameters_.columns, DropStatus::solved, parameters_of(i));
   }
 
@@ -304,7 +300,7 @@ class BlockRunner {
   void run_alone(std::size_t i) {
     const drop::Parameters p = parameters_of(i);
     const auto every = static_cast<std::size_t>(settings_.every);
-    const drop::State start{row(starts_.q0, i), row(starts_.v0, i)};
+    const drop::State start = start_of(i);
     drop::State state = start;
     NotedColumns noted = note_start(start, p, settings_.measures);
     DropStatus status = DropStatus::solved;
@@ -337,7 +333,7 @@ class BlockRunner {
   const DropParameters& parameters_;
   const BatchSettings& settings_;
   const DropResults<Real>& results_;
-  AdvanceDrops<Real> advance_;
+  AdvanceDrops<Real>* advance_;
   MeasureBounds<Real> bounds_;
   bool has_common_parameters_;
   drop::Parameters common_;

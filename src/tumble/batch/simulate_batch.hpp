@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "tumble/batch/measure_settings.hpp"
 #include "tumble/drop/parameters.hpp"
 #include "tumble/math/instruction_set.hpp"
 
@@ -51,13 +52,6 @@ struct DropMeasures {
   std::int32_t impacts;  // steps with a contact force whose step before had none
   std::int32_t face;  // side of the square that is up at the end: 0 the one at +y in the body frame, 1 at +x, 2 at -y,
                       // 3 at -x; -1 if the drop was not solved
-};
-
-struct MeasureSettings {
-  // Bounds sqrt(vx^2 + vy^2 + (l^2 / 6) omega^2) [m/s], >= 0: the speed that all of the kinetic energy would give.
-  double rest_speed = 0.2;
-  double x_min = -std::numeric_limits<double>::infinity();  // [m]
-  double x_max = std::numeric_limits<double>::infinity();   // [m]
 };
 
 struct BatchSettings {

@@ -7,29 +7,6 @@
 #include <fmt/format.h>
 
 namespace tumble {
-namespace {
-
-constexpr InstructionSet k_sets[] = {InstructionSet::scalar, InstructionSet::baseline, InstructionSet::avx2,
-                                     InstructionSet::avx512};
-
-InstructionSet widest() {
-  if (has_instruction_set(InstructionSet::avx512)) return InstructionSet::avx512;
-  return has_instruction_set(InstructionSet::avx2) ? InstructionSet::avx2 : InstructionSet::baseline;
-}
-
-InstructionSet named(std::string_view name) {
-  std::string names;
-  for (const InstructionSet set : k_sets) {
-    if (!has_instruction_set(set)) continue;
-    if (name == to_string(set)) return set;
-    names += (names.empty() ? "" : ", ") + std::string(to_string(set));
-  }
-  throw std::invalid_argument(
-      fmt::format("TUMBLE_INSTRUCTION_SET: must be one of {} on this machine, got '{}'", names, name));
-}
-
-}  // namespace
-
 std::string_view to_string(InstructionSet set) {
   switch (set) {
     case InstructionSet::scalar: return "scalar";
@@ -56,11 +33,29 @@ bool has_instruction_set(InstructionSet set) {
   return set == InstructionSet::scalar || set == InstructionSet::baseline;
 }
 
+std::vector<InstructionSet> instruction_sets() {
+  std::vector<InstructionSet> sets;
+  for (const auto set :
+       {InstructionSet::scalar, InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (has_instruction_set(set)) sets.push_back(set);
+  }
+  return sets;
+}
+
+InstructionSet instruction_set_named(std::string_view name, std::string_view field) {
+  std::string names;
+  for (const InstructionSet set : instruction_sets()) {
+    if (name == to_string(set)) return set;
+    names += (names.empty() ? "" : ", ") + std::string(to_string(set));
+  }
+  throw std::invalid_argument(fmt::format("{}: must be one of {} on this machine, got '{}'", field, names, name));
+}
+
 InstructionSet instruction_set() {
   const char* name = std::getenv("TUMBLE_INSTRUCTION_SET");
-  if (name != nullptr && *name != '\0') return named(name);
-  static const InstructionSet set = widest();
-  return set;
+  if (name != nullptr && *name != '\0') return instruction_set_named(name, "TUMBLE_INSTRUCTION_SET");
+  static const InstructionSet widest = instruction_sets().back();
+  return widest;
 }
 
 }  // namespace tumble

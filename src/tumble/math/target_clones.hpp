@@ -6,7 +6,7 @@
 // g++ only: programs of clang 14 with such copies end in an illegal instruction. A macro, as attributes have no other
 // way to be shared.
 #if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TUMBLE_INSTRUCTION_SETS __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define TUMBLE_INSTRUCTION_SETS

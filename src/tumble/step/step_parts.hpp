@@ -82,6 +82,10 @@ inline constexpr double k_touching = 1e-6;
 struct StepWorkspace::Parts {
   explicit Parts(const Scene& scene);
 
+  // What may differ between runs of one scene: laws of all materials, masses of a body.
+  void take_laws(const Scene& scene);
+  void take_mass(const Scene& scene, std::size_t body);
+
   // Of the scene.
   ContactFinder finder;
   std::vector<ContactLaw> laws;       // of materials a, b at a * materials + b

@@ -195,16 +195,12 @@ void advance(const Scene& scene, double h, State& state, const Parts& parts) {
 
 StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
   const Index n = scene.bodies.size();
-  for (Index a = 0; a < scene.materials.size(); ++a) {
-    for (Index b = 0; b < scene.materials.size(); ++b) {
-      laws.push_back(contact_law(scene, static_cast<int>(a), static_cast<int>(b)));
-    }
-  }
-  for (const Body& body : scene.bodies) {
-    const bool moves = body.kind == BodyKind::dynamic;
-    const Vector3 m = {body.mass, body.mass, body.moment_of_inertia};
-    mass.push_back(moves ? m : Vector3{});
-    inverse_mass.push_back(moves ? Vector3{1.0 / m[0], 1.0 / m[1], 1.0 / m[2]} : Vector3{});
+  take_laws(scene);
+  mass.assign(n, Vector3{});
+  inverse_mass.assign(n, Vector3{});
+  for (Index i = 0; i < n; ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.kind == BodyKind::dynamic) take_mass(scene, i);
     radius.push_back(radius_of(body));
     sizes.emplace_back();
     for (const Part& part : body.parts) sizes.back().push_back(size_of(part.shape));
@@ -219,6 +215,21 @@ StepWorkspace::Parts::Parts(const Scene& scene) : finder(scene) {
   parent.resize(n);
   island_of.resize(n);
   local_body.assign(n, -1);
+}
+
+void StepWorkspace::Parts::take_laws(const Scene& scene) {
+  laws.clear();
+  for (Index a = 0; a < scene.materials.size(); ++a) {
+    for (Index b = 0; b < scene.materials.size(); ++b) {
+      laws.push_back(contact_law(scene, static_cast<int>(a), static_cast<int>(b)));
+    }
+  }
+}
+
+void StepWorkspace::Parts::take_mass(const Scene& scene, std::size_t body) {
+  const Vector3 m = {scene.bodies[body].mass, scene.bodies[body].mass, scene.bodies[body].moment_of_inertia};
+  mass[body] = m;
+  inverse_mass[body] = {1.0 / m[0], 1.0 / m[1], 1.0 / m[2]};
 }
 
 StepWorkspace::StepWorkspace(const Scene& scene) {

@@ -18,7 +18,7 @@ Interval interval_of_share(std::int64_t count, std::int64_t total);
 // by Student's t. NaN where there are fewer than two.
 Interval interval_of_mean(std::int64_t count, double mean, double squares);
 
-// t with P(|T| > t) = 0.05 for Student's t with n >= 1 degrees of freedom, to 1e-4 of t for n >= 3 [Hill 1970].
-double student_t_95(double n);
+// t with P(|T| > t) = 0.05 for Student's t with that many degrees of freedom, >= 1; to 2e-8 of t.
+double student_t_95(std::int64_t degrees);
 
 }  // namespace tumble::sweep

@@ -58,9 +58,7 @@ Rows simulate_scenes(const SliceValues& values, const std::function<void()>& wat
   const SceneModel& model = *values.spec.scene;
   batch::RolloutSettings settings;
   settings.threads = 1;
-  settings.rest_speed = values.spec.measures.rest_speed;
-  settings.x_min = values.spec.measures.x_min;
-  settings.x_max = values.spec.measures.x_max;
+  settings.measures = values.spec.measures;
   settings.watch = [&](std::size_t) { watch(); };
   const std::size_t num_bodies = batch::movable_bodies(model.scene).size();
   std::vector<double> pose(3 * num_bodies * values.count);

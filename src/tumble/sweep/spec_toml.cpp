@@ -205,7 +205,7 @@ class SpecReader {
     model.scene = parse_scene(model.text, name);
     bodies_ = batch::movable_bodies(model.scene);
     if (bodies_.empty()) file.refuse_with("must hold a body that moves");
-    spec_.measures.rest_speed = batch::RolloutSettings{}.rest_speed;
+    spec_.measures.rest_speed = batch::RolloutSettings{}.measures.rest_speed;
     spec_.scene = std::move(model);
   }
 
