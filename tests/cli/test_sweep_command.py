@@ -491,7 +491,7 @@ def test_mpirun_hands_chunks_out(folder: Path) -> None:
     assert len(chunks_in(folder / "many")) == NUM_CHUNKS
     for name in RESULTS[1:]:
         assert (folder / "many" / name).read_bytes() == (folder / "one" / name).read_bytes()
-    assert mpirun("drops.toml", "-o", "many.npz").returncode == 0  # one lock for all processes
+    assert mpirun(program, "drops.toml", "-o", "many.npz", cwd=folder).returncode == 0  # one lock for all processes
     assert (folder / "many.npz").read_bytes() == (folder / "one/columns.npz").read_bytes()
     chunks_in(folder / "many")[3].unlink()
     run = mpirun(program, "drops.toml", "-o", "many", "--quiet", cwd=folder)
@@ -499,7 +499,8 @@ def test_mpirun_hands_chunks_out(folder: Path) -> None:
 
     (folder / "drops.toml").write_text(SPEC.replace("seed = 7", "seed = 8"))
     run = mpirun(program, "drops.toml", "-o", "many", cwd=folder)
-    assert run.returncode != 0 and "tumble: many: holds another sweep" in run.stderr
+    error = "tumble: many: holds another sweep: its spec.toml gives other results; --force replaces it\n"
+    assert run.returncode != 0 and error in run.stderr
     (folder / "drops.toml").write_text(LONG)
     process = subprocess.Popen(["mpirun", "-n", "3", str(program), "sweep", "drops.toml", "-o", "part"], cwd=folder, env=MPI_ENVIRONMENT)
     while not chunks_in(folder / "part"):
