@@ -156,7 +156,7 @@ int run_sweep(const SweepOptions& options) {
   try {
     return run_sweep(options, processes);
   } catch (const std::exception& error) {
-    processes.abort(report_failure(error.what(), k_bad_input));  // the others would wait
+    processes.abort(report_error(error));  // the others would wait
   }
 }
 
