@@ -94,10 +94,9 @@ void finish(std::span<const sweep::Folder> folders, const Targets& targets, bool
 
 sweep::RunReport compute(const sweep::Folder& folder, const SweepOptions& options, Processes& processes) {
   const InterruptGuard interrupt;
-  const sweep::Spec& spec = folder.spec();
-  Progress progress(static_cast<std::int64_t>(sweep::num_instances(spec) / options.shards), 1.0, "instances");
   sweep::RunSettings settings;
   settings.shard = {options.shard - 1, options.shards};
+  Progress progress(static_cast<std::int64_t>(sweep::num_instances(folder.spec(), settings.shard)), 1.0, "instances");
   settings.threads = options.threads;
   settings.is_interrupted = [&] { return interrupt.is_interrupted(); };
   settings.progress = [&](std::uint64_t instances) { progress.show(static_cast<std::int64_t>(instances)); };
