@@ -1,6 +1,7 @@
 #include "tumble/output/file.hpp"
 
 #include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <ctime>
@@ -106,6 +107,12 @@ std::string path_text(const fs::path& path) {
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
   }
   return text;
+}
+
+std::string ending_of(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
 }
 
 OutputFile::OutputFile(const fs::path& path, bool overwrite, bool has_temporary_name)

@@ -11,6 +11,9 @@ namespace tumble::output {
 // The path for a message: one line, without bytes that a terminal would act on.
 std::string path_text(const std::filesystem::path& path);
 
+// The ending of a file's name in lower case, with its dot: ".npz" of "A.NPZ".
+std::string ending_of(const std::filesystem::path& path);
+
 // A file under construction. The bytes go to a file without a name on the disk of the target; `commit` gives it
 // the name. Without `commit` nothing is left behind, even if the process is killed, and an older file stays as it
 // was. (File systems without nameless files get a temporary name, .tumble-PID-N.tmp, which a kill leaves behind.)

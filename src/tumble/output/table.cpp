@@ -1,7 +1,5 @@
 #include "tumble/output/table.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -13,13 +11,6 @@
 
 namespace tumble::output {
 namespace {
-
-bool has_ending(const std::filesystem::path& path, std::string_view ending) {
-  std::string name = path.extension().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name == ending;
-}
 
 void write_npz(const Table& table, OutputFile& file) {
   ZipStream zip([&](std::string_view bytes) { file.write(bytes); });
@@ -44,7 +35,7 @@ void write_npz(const Table& table, OutputFile& file) {
 
 void write_table(const Table& table, const std::filesystem::path& path, bool overwrite) {
   check_table_writable(path, overwrite);
-  const bool is_hdf5 = has_ending(path, ".h5");
+  const bool is_hdf5 = ending_of(path) == ".h5";
   OutputFile file(path, overwrite, is_hdf5);
   if (is_hdf5) {
     write_table_hdf5(table, file.working_path());
@@ -58,13 +49,13 @@ void check_table_writable(const std::filesystem::path& path, bool overwrite) {
   if (!is_table_name(path)) {
     throw std::invalid_argument(fmt::format("{}: the name must end in .npz or .h5", path_text(path)));
   }
-  if (has_ending(path, ".h5")) check_hdf5();
+  if (ending_of(path) == ".h5") check_hdf5();
   check_target(path, overwrite);
-  if (is_direct_target(path) && has_ending(path, ".h5")) {
+  if (is_direct_target(path) && ending_of(path) == ".h5") {
     throw std::invalid_argument(fmt::format("{}: an .h5 can only be written to a regular file", path_text(path)));
   }
 }
 
-bool is_table_name(const std::filesystem::path& path) { return has_ending(path, ".npz") || has_ending(path, ".h5"); }
+bool is_table_name(const std::filesystem::path& path) { return ending_of(path) == ".npz" || ending_of(path) == ".h5"; }
 
 }  // namespace tumble::output

@@ -131,7 +131,8 @@ Statistics Statistics::from_fields(Layout layout, std::span<const Field> fields)
 
   const auto& cells = reader.get<std::int32_t>("statistics_cell", -1);
   const auto num_cells = static_cast<std::ptrdiff_t>(cells.size());
-  const auto& cell_outcomes = reader.get<std::int64_t>("statistics_cell_outcomes", num_cells * 7);
+  const auto& cell_outcomes =
+      reader.get<std::int64_t>("statistics_cell_outcomes", num_cells * static_cast<std::ptrdiff_t>(k_num_outcomes));
   const auto& cell_counts = reader.get<std::int64_t>("statistics_cell_count", num_cells * measures);
   const auto& cell_sums = reader.get<double>("statistics_cell_sum", num_cells * measures);
   for (std::size_t k = 0; k < cells.size(); ++k) {

@@ -185,9 +185,7 @@ std::string to_plot_svg(const PlotSource& source, const PlotSettings& settings) 
 
 void write_plot(const PlotSource& source, const std::filesystem::path& path, const PlotSettings& settings,
                 bool overwrite) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = output::ending_of(path);
   if (ending != ".png" && ending != ".svg") {
     throw std::invalid_argument(fmt::format("{}: the name must end in .png or .svg", output::path_text(path)));
   }
