@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ inline constexpr int k_interrupted = 130;  // by Ctrl-C: 128 + SIGINT, as shells
 
 // "tumble: <message>" on standard error; returns `exit_code`.
 int report_failure(const std::string& message, int exit_code);
+
+// The same of an exception, in the words of the command line: options for fields, and which one helps.
+int report_error(const std::exception& error);
 
 struct ReportOptions {
   bool json = false;   // one JSON object on standard output instead of text

@@ -344,11 +344,13 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(error.what());
   } catch (const std::exception& error) {
-    return fail(with_option_name(error.what()));
+    return report_error(error);
   }
 }
 
 }  // namespace
+
+int report_error(const std::exception& error) { return fail(with_option_name(error.what())); }
 
 int report_failure(const std::string& message, int exit_code) {
   std::fflush(stdout);

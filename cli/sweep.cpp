@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -51,6 +52,16 @@ sweep::Spec read_spec(const std::string& file) {
   });
 }
 
+// The files of the results in a folder.
+std::vector<std::string> files_in(const fs::path& folder, sweep::Keep keep) {
+  std::vector<std::string> files;
+  for (const char* name : {keep == sweep::Keep::columns ? sweep::k_columns_name : sweep::k_statistics_name,
+                           sweep::k_table_name, sweep::k_json_name, sweep::k_picture_name}) {
+    files.push_back((folder / name).string());
+  }
+  return files;
+}
+
 // Writes the results of a sweep that is complete, and prints what they are. With `file` nothing else is written.
 void finish(std::span<const sweep::Folder> folders, const Targets& targets, bool overwrite, int threads,
             const ReportOptions& report) {
@@ -58,19 +69,18 @@ void finish(std::span<const sweep::Folder> folders, const Targets& targets, bool
   const sweep::Spec& spec = chunks.spec();
   const sweep::Statistics statistics = sweep::merge_statistics(chunks);
   const sweep::Summary summary = sweep::summarise(statistics, sweep::facts_of(spec));
-  std::vector<std::string> files;
+  std::vector<std::string> files = {targets.file.string()};
   if (!targets.file.empty()) {
     sweep::write_results(chunks, statistics, targets.file, overwrite);
-    files.push_back(targets.file.string());
   } else {
-    const auto in_folder = [&](const char* name) { return files.emplace_back((targets.folder / name).string()); };
-    const bool has_columns = spec.keep == sweep::Keep::columns;
-    sweep::write_results(chunks, statistics, in_folder(has_columns ? sweep::k_columns_name : sweep::k_statistics_name),
-                         true);
-    output::write_file_atomically(in_folder(sweep::k_table_name), sweep::to_csv(summary), true);
-    output::write_file_atomically(in_folder(sweep::k_json_name), sweep::to_json(summary), true);
+    fs::create_directories(targets.folder);
+    files = files_in(targets.folder, spec.keep);
+    for (const std::string& file : files) output::check_target(file, overwrite);
+    sweep::write_results(chunks, statistics, files[0], overwrite);
+    output::write_file_atomically(files[1], sweep::to_csv(summary), overwrite);
+    output::write_file_atomically(files[2], sweep::to_json(summary), overwrite);
     const std::optional<sweep::Fan> fan = sweep::fan_of(spec);
-    sweep::write_plot({statistics, summary, fan ? &*fan : nullptr}, in_folder(sweep::k_picture_name), {}, true);
+    sweep::write_plot({statistics, summary, fan ? &*fan : nullptr}, files[3], {}, overwrite);
   }
   if (report.quiet) return;
   if (!report.json) {
@@ -84,10 +94,9 @@ void finish(std::span<const sweep::Folder> folders, const Targets& targets, bool
 
 sweep::RunReport compute(const sweep::Folder& folder, const SweepOptions& options, Processes& processes) {
   const InterruptGuard interrupt;
-  const sweep::Spec& spec = folder.spec();
-  Progress progress(static_cast<std::int64_t>(sweep::num_instances(spec) / options.shards), 1.0, "instances");
   sweep::RunSettings settings;
   settings.shard = {options.shard - 1, options.shards};
+  Progress progress(static_cast<std::int64_t>(sweep::num_instances(folder.spec(), settings.shard)), 1.0, "instances");
   settings.threads = options.threads;
   settings.is_interrupted = [&] { return interrupt.is_interrupted(); };
   settings.progress = [&](std::uint64_t instances) { progress.show(static_cast<std::int64_t>(instances)); };
@@ -132,7 +141,8 @@ int run_sweep(const SweepOptions& options, Processes& processes) {
         k_interrupted);
   }
   if (options.shards > 1) return report_shard(options, report, folder.path());
-  finish({&folder, 1}, targets, options.overwrite, options.threads, options.report);
+  const bool is_own = targets.file.empty();  // the results in its folder
+  finish({&folder, 1}, targets, options.overwrite || is_own, options.threads, options.report);
   if (!targets.file.empty()) folder.remove();
   return k_done;
 }
@@ -145,7 +155,7 @@ int run_sweep(const SweepOptions& options) {
   try {
     return run_sweep(options, processes);
   } catch (const std::exception& error) {
-    processes.abort(report_failure(error.what(), k_bad_input));  // the others would wait
+    processes.abort(report_error(error));  // the others would wait
   }
 }
 
@@ -154,14 +164,17 @@ int merge_sweep(const MergeOptions& options) {
   std::vector<sweep::Folder> folders;
   for (const std::string& folder : options.folders) folders.push_back(sweep::Folder::open(folder));
   Targets targets;
+  bool is_own = false;  // the results in the folder of a sweep are its own
   if (output::is_table_name(options.output)) {
     output::check_table_writable(options.output, options.overwrite);
     targets.file = options.output;
   } else {
     targets.folder = options.output.empty() ? options.folders[0] : options.output;
-    fs::create_directories(targets.folder);
+    is_own = fs::exists(targets.folder) &&
+             std::any_of(folders.begin(), folders.end(),
+                         [&](const sweep::Folder& folder) { return fs::equivalent(folder.path(), targets.folder); });
   }
-  finish(folders, targets, options.overwrite, options.threads, options.report);
+  finish(folders, targets, options.overwrite || is_own, options.threads, options.report);
   return k_done;
 }
 

@@ -72,6 +72,7 @@ void Processes::help(const std::function<sweep::Folder()>& open) {
 sweep::RunReport Processes::lead(const sweep::Folder& folder, const sweep::RunSettings& settings) {
   sweep::RunReport report;
   Queue queue(sweep::find_missing(folder, {settings.shard, settings.threads, {}, {}}, report));
+  const std::uint64_t num_instances = sweep::num_instances(folder.spec(), settings.shard);
   MPI_Barrier(MPI_COMM_WORLD);
   std::atomic<bool> is_interrupted = false;
   std::atomic<bool> has_ended = false;
@@ -99,7 +100,8 @@ sweep::RunReport Processes::lead(const sweep::Folder& folder, const sweep::RunSe
     int is_there = 0;
     MPI_Iprobe(MPI_ANY_SOURCE, k_request, MPI_COMM_WORLD, &is_there, &status);
     if (!is_there) {
-      settings.progress((report.found + queue.num_given()) * folder.spec().chunk);
+      // The last chunk may be smaller.
+      settings.progress(std::min((report.found + queue.num_given()) * folder.spec().chunk, num_instances));
       std::this_thread::sleep_for(k_pause);
       continue;
     }

@@ -49,10 +49,12 @@ sweep::Spec parse(const std::string& text, const std::string& name, const py::ob
   }
 }
 
-py::dict plan(const std::string& text, const std::string& name, const py::object& scene) {
+// Of a shard: the instances. Of the sweep: the chunks.
+py::dict plan(const std::string& text, const std::string& name, const py::object& scene, std::uint64_t index,
+              std::uint64_t count) {
   const sweep::Spec spec = parse(text, name, scene);
   py::dict plan;
-  plan["instances"] = sweep::num_instances(spec);
+  plan["instances"] = sweep::num_instances(spec, {index, count});
   plan["chunks"] = sweep::num_chunks(spec);
   return plan;
 }
@@ -202,7 +204,7 @@ PYBIND11_MODULE(_sweep, module) {
       .def_property_readonly("summary_csv", [](const Answers& a) { return to_csv(python::summary_of(a)); })
       .def_property_readonly("summary_json", [](const Answers& a) { return to_json(python::summary_of(a)); })
       .def("draw", &python::draw, "kind"_a, "width"_a, "height"_a, "is_svg"_a);
-  module.def("plan", &python::plan, "text"_a, "name"_a, "scene"_a);
+  module.def("plan", &python::plan, "text"_a, "name"_a, "scene"_a, "index"_a = 0, "count"_a = 1);
   module.def("simulate", &python::simulate, "text"_a, "name"_a, "scene"_a, "threads"_a, "progress"_a);
   module.def("begin", &python::begin, "text"_a, "name"_a, "scene"_a, "folder"_a, "overwrite"_a);
   module.def("run_shard", &python::run_shard, "folder"_a, "index"_a, "count"_a, "threads"_a, "progress"_a);

@@ -129,6 +129,23 @@ def test_merge_says_what_is_missing(folder: Path) -> None:
     assert refuse("sweep", "merge", ".", cwd=folder) == "tumble: .: is no folder of a sweep: it has no spec.toml\n"
 
 
+def test_merge_replaces_only_results_of_its_sweep(folder: Path) -> None:
+    succeed("sweep", "drops.toml", "-o", "own1", "--shard", "1/2", cwd=folder)
+    refuse("sweep", "merge", "own1", "-o", "all", cwd=folder)
+    assert not (folder / "all").exists()
+    succeed("sweep", "drops.toml", "-o", "own2", "--shard", "2/2", cwd=folder)
+    (folder / "mine").mkdir()
+    (folder / "mine/summary.csv").write_text("mine")
+    error = refuse("sweep", "merge", "own1", "own2", "-o", "mine", cwd=folder)
+    assert error == "tumble: mine/summary.csv: already exists; --force replaces it\n"
+    assert os.listdir(folder / "mine") == ["summary.csv"] and (folder / "mine/summary.csv").read_text() == "mine"
+    succeed("sweep", "merge", "own1", "own2", "-o", "mine", "--force", cwd=folder)
+    for _ in range(2):
+        succeed("sweep", "merge", "own1", "own2", cwd=folder)
+        succeed("sweep", "merge", "own1", "own2", "-o", "./own2/", cwd=folder)
+    assert (folder / "mine/summary.csv").read_bytes() == (folder / "own2/summary.csv").read_bytes()
+
+
 def test_a_rerun_computes_only_what_is_missing_or_damaged(folder: Path) -> None:
     succeed("sweep", "drops.toml", cwd=folder)
     results = folder / "drops.sweep/columns.npz"
@@ -474,7 +491,7 @@ def test_mpirun_hands_chunks_out(folder: Path) -> None:
     assert len(chunks_in(folder / "many")) == NUM_CHUNKS
     for name in RESULTS[1:]:
         assert (folder / "many" / name).read_bytes() == (folder / "one" / name).read_bytes()
-    assert mpirun("drops.toml", "-o", "many.npz").returncode == 0  # one lock for all processes
+    assert mpirun(program, "drops.toml", "-o", "many.npz", cwd=folder).returncode == 0  # one lock for all processes
     assert (folder / "many.npz").read_bytes() == (folder / "one/columns.npz").read_bytes()
     chunks_in(folder / "many")[3].unlink()
     run = mpirun(program, "drops.toml", "-o", "many", "--quiet", cwd=folder)
@@ -482,7 +499,8 @@ def test_mpirun_hands_chunks_out(folder: Path) -> None:
 
     (folder / "drops.toml").write_text(SPEC.replace("seed = 7", "seed = 8"))
     run = mpirun(program, "drops.toml", "-o", "many", cwd=folder)
-    assert run.returncode != 0 and "tumble: many: holds another sweep" in run.stderr
+    error = "tumble: many: holds another sweep: its spec.toml gives other results; --force replaces it\n"
+    assert run.returncode != 0 and error in run.stderr
     (folder / "drops.toml").write_text(LONG)
     process = subprocess.Popen(["mpirun", "-n", "3", str(program), "sweep", "drops.toml", "-o", "part"], cwd=folder, env=MPI_ENVIRONMENT)
     while not chunks_in(folder / "part"):

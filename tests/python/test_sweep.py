@@ -3,10 +3,12 @@
 import json
 import os
 import signal
+import struct
 import subprocess
 import sys
 import threading
 import time
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -83,9 +85,28 @@ def test_what_is_finished_is_not_computed_again(tmp_path):
     assert len(sweep_package.run(other, tmp_path / "sweep", overwrite=True)) == N
 
 
+def test_a_chunk_with_more_rows_than_it_has_is_refused(tmp_path):
+    sweep_package.run_shard(SPEC, tmp_path / "sweep")
+    file = tmp_path / "sweep/chunks/000001.chunk"
+    data = file.read_bytes()
+    parts = struct.unpack_from("<Q", data, 24)[0]
+    head = list(struct.unpack_from(f"<{4 + 2 * parts}Q", data))
+    last = data[-head[-2] :] * 1000  # a column a thousand times over, with a checksum that fits
+    head[-2:] = len(last), zlib.crc32(last)
+    words = struct.pack(f"<{len(head)}Q", *head)
+    start = 8 * (len(head) + 1)
+    kept = sum(head[4:-2:2])
+    file.write_bytes(words + struct.pack("<Q", zlib.crc32(words)) + data[start : start + kept] + last)
+    with pytest.raises(OSError, match="chunk 1: status: must have 64 rows, has 64000"):
+        sweep_package.load(tmp_path / "sweep")
+
+
 def test_files_come_back(swept, tmp_path):
     swept.save(tmp_path / "sweep.npz")
     assert_same(sweep_package.load(tmp_path / "sweep.npz"), swept)
+    swept.save(tmp_path / "SWEEP.NPZ")
+    assert_same(sweep_package.load(tmp_path / "SWEEP.NPZ"), swept)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["SWEEP.NPZ", "sweep.npz"]
     with np.load(tmp_path / "sweep.npz") as file:
         assert set(swept.columns) < set(file.files)
 

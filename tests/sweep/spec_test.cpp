@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tumble/sweep/plan.hpp"
+#include "tumble/sweep/run.hpp"
 
 namespace {
 
@@ -107,6 +108,14 @@ TEST(SweepPlan, AnInstanceIsTheSameWhateverTheSlice) {
     EXPECT_EQ(values_of(spec, name, 617, 1)[0], all[617]);
     EXPECT_EQ(values_of(spec, name, 600, 300)[17], all[617]);
   }
+}
+
+TEST(SweepPlan, ShardsHaveTheInstancesOfTheirChunks) {
+  const Spec spec = parse_spec(k_head + "samples = 1000\nchunk = 300\nstart.x = { uniform = [0, 1] }\n");
+  EXPECT_EQ(num_instances(spec, {0, 3}), 400u);  // chunks 0 and 3, the last one, of 100
+  EXPECT_EQ(num_instances(spec, {1, 3}), 300u);
+  EXPECT_EQ(num_instances(spec, {4, 6}), 0u);
+  EXPECT_EQ(num_instances(spec, {}), 1000u);
 }
 
 // A draw belongs to its quantity: another quantity that is drawn too does not change it.

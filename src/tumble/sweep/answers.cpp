@@ -128,6 +128,10 @@ Answers read_answers(const Chunks& chunks) {
     for (std::size_t k = 0; k < answers.columns.size(); ++k) {
       Column& column = answers.columns[k];
       const std::vector<double> values = from_bytes(chunks.read(chunk, k_first_column_part + k), column.is_whole);
+      if (values.size() != slice.count) {
+        throw std::runtime_error(
+            fmt::format("chunk {}: {}: must have {} rows, has {}", chunk, column.name, slice.count, values.size()));
+      }
       std::copy(values.begin(), values.end(), column.values.begin() + static_cast<std::ptrdiff_t>(slice.first));
     }
   }

@@ -1,6 +1,5 @@
 #include "tumble/sweep/run.hpp"
 
-#include <algorithm>
 #include <atomic>
 
 #include "tumble/batch/parallel.hpp"
@@ -19,6 +18,12 @@ std::vector<std::uint64_t> chunks_of(const Spec& spec, const Shard& shard) {
   return chunks;
 }
 
+std::uint64_t num_instances_in(const Spec& spec, const std::vector<std::uint64_t>& chunks) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t chunk : chunks) sum += slice_of_chunk(spec, chunk).count;
+  return sum;
+}
+
 std::function<void()> interruption(const RunSettings& settings) {
   return [&settings] {
     if (settings.is_interrupted && settings.is_interrupted()) throw Interrupted{};
@@ -26,6 +31,10 @@ std::function<void()> interruption(const RunSettings& settings) {
 }
 
 }  // namespace
+
+std::uint64_t num_instances(const Spec& spec, const Shard& shard) {
+  return num_instances_in(spec, chunks_of(spec, shard));
+}
 
 std::vector<std::uint64_t> find_missing(const Folder& folder, const RunSettings& settings, RunReport& report) {
   const std::vector<std::uint64_t> chunks = chunks_of(folder.spec(), settings.shard);
@@ -60,16 +69,17 @@ RunReport run_sweep(const Folder& folder, const RunSettings& settings) {
   const std::function<void()> watch = interruption(settings);
   try {
     const std::vector<std::uint64_t> missing = find_missing(folder, settings, report);
-    std::atomic<std::uint64_t> done = report.found * folder.spec().chunk;  // the last chunk may be smaller
+    const Spec& spec = folder.spec();
+    std::atomic<std::uint64_t> done = num_instances(spec, settings.shard) - num_instances_in(spec, missing);
     batch::for_each_chunk(
         missing.size(), settings.threads,
         [&](std::size_t k, std::size_t) {
           watch();
           compute_chunk(folder, missing[k], watch);
-          done += slice_of_chunk(folder.spec(), missing[k]).count;
+          done += slice_of_chunk(spec, missing[k]).count;
         },
         [&](std::size_t) {
-          if (settings.progress) settings.progress(std::min<std::uint64_t>(done, num_instances(folder.spec())));
+          if (settings.progress) settings.progress(done);
         });
   } catch (const Interrupted&) {
     report.is_interrupted = true;

@@ -16,11 +16,15 @@ struct Shard {
   std::uint64_t count = 1;
 };
 
+// Of all chunks of the shard.
+std::uint64_t num_instances(const Spec& spec, const Shard& shard);
+
 struct RunSettings {
   Shard shard{};
   int threads = 0;                         // 0: one for each core
   std::function<bool()> is_interrupted{};  // asked often, from all threads; once it is true the run ends
-  std::function<void(std::uint64_t instances)> progress{};  // called now and then from the calling thread
+  // Called now and then from the calling thread with the number of instances of the shard that are done.
+  std::function<void(std::uint64_t instances)> progress{};
 };
 
 struct RunReport {

@@ -87,7 +87,7 @@ def run_shard(
     shard = as_whole_number(index, "shard: index", 1, shards) - 1
     read, path, cores = read_spec(spec), as_bytes(folder, "folder"), as_threads(threads)
     _begin(read, path, bool(overwrite))
-    with _Progress(progress, sweep_module().plan(*read)["instances"] // shards) as told:
+    with _Progress(progress, sweep_module().plan(*read, shard, shards)["instances"]) as told:
         return dict(sweep_module().run_shard(path, shard, shards, cores, told))
 
 

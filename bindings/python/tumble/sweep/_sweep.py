@@ -230,7 +230,8 @@ class Sweep:
             raise ValueError("save: the spec keeps statistics alone, there are no columns")
         with complete_file(target) as unfinished:
             scene = {"scene": self._answers.scene} if self._answers.scene else {}
-            np.savez(unfinished, spec=self.spec, **scene, **self.columns)
+            with unfinished.open("wb") as file:  # to a name that ends in .NPZ, numpy would add .npz
+                np.savez(file, spec=self.spec, **scene, **self.columns)
 
 
 def _number(value: Any) -> float:
