@@ -3,6 +3,8 @@
 import os
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -54,3 +56,25 @@ def shown_on_a_terminal(code: str) -> bytes:
     os.close(ours)
     assert child.wait(timeout=60) == 0
     return shown
+
+
+def ticks_during(call: Callable[[], object]) -> tuple[int, float]:
+    """How often another thread, which wants to wake every 5 ms, did so while the call ran, and how long that took [s]."""
+    ticks: list[float] = []
+    is_over = threading.Event()
+
+    def tick() -> None:
+        while not is_over.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.005)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    try:
+        start = time.monotonic()
+        call()
+        end = time.monotonic()
+    finally:
+        is_over.set()
+        thread.join()
+    return sum(start < t < end for t in ticks), end - start

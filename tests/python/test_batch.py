@@ -6,14 +6,13 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 from typing import Any
 
 import numpy as np
 import pytest
 import tumble
-from scene_samples import HEEDS_CTRL_C, shown_on_a_terminal
+from scene_samples import HEEDS_CTRL_C, shown_on_a_terminal, ticks_during
 from tumble import _core
 from tumble.drop import Batch, Parameters, simulate, simulate_batch
 
@@ -171,22 +170,8 @@ def test_what_is_wrong_for_all_is_one_line(arguments: dict[str, Any], message: s
 
 def test_other_threads_run_meanwhile() -> None:
     q0, v0 = starts(20000)
-    ticks = 0
-    is_over = False
-
-    def tick() -> None:
-        nonlocal ticks
-        while not is_over:
-            ticks += 1
-            time.sleep(0.001)
-
-    thread = threading.Thread(target=tick)
-    thread.start()
-    simulate_batch(q0, v0, Parameters(columns=2000), threads=1)
-    seen = ticks
-    is_over = True
-    thread.join()
-    assert seen > 5
+    ticks, seconds = ticks_during(lambda: simulate_batch(q0, v0, Parameters(columns=2000), threads=1))
+    assert ticks > seconds / 0.05  # at least a tenth of what it would be alone
 
 
 def test_ctrl_c_ends_it_soon() -> None:

@@ -1,6 +1,5 @@
 """tumble.rollout: the bits of simulate, what it returns, and what it refuses."""
 
-import threading
 import time
 import warnings
 from typing import Any
@@ -8,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import tumble
-from scene_samples import HEEDS_CTRL_C, ROOT, load, refuse_in_one_line, run_python, shown_on_a_terminal
+from scene_samples import HEEDS_CTRL_C, ROOT, load, refuse_in_one_line, run_python, shown_on_a_terminal, ticks_during
 from tumble import Rollout, Scene, rollout, simulate
 
 NAN = float("nan")
@@ -255,25 +254,13 @@ def test_ctrl_c_works_within_a_second(count: int, duration: float, threads: int)
 
 
 def test_other_threads_run_meanwhile() -> None:
-    ticks, done = [], threading.Event()
-
-    def tick() -> None:
-        while not done.is_set():
-            ticks.append(time.monotonic())
-            time.sleep(0.005)
-
-    thread = threading.Thread(target=tick)
-    thread.start()
-    start = time.monotonic()
-    rollout(load("drop"), friction=[0.1] * 100, threads=1)
-    passed = time.monotonic() - start
-    done.set()
-    thread.join()
-    assert len([t for t in ticks if t > start]) > passed / 0.05  # at least a tenth of what it would be alone
+    ticks, seconds = ticks_during(lambda: rollout(load("drop"), friction=[0.1] * 100, threads=1))
+    assert ticks > seconds / 0.05  # at least a tenth of what it would be alone
 
 
 PROGRESS = """
-import tumble
+import tumble, tumble._progress as module
+module._SECONDS_BEFORE_PROGRESS = module._SECONDS_BETWEEN_LINES = 0.0
 tumble.rollout(tumble.Scene.load({scene!r}), friction=[0.1] * 100, duration=8, threads=1, progress=True)
 """
 

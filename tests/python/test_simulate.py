@@ -1,7 +1,6 @@
 """tumble.simulate: known answers, what it returns, and what it refuses."""
 
 import signal
-import threading
 import time
 import warnings
 from concurrent.futures import ThreadPoolExecutor
@@ -9,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 import tumble
-from scene_samples import HEEDS_CTRL_C, ROOT, box_on_floor, load, refuse_in_one_line, run_python, shown_on_a_terminal
+from scene_samples import HEEDS_CTRL_C, ROOT, box_on_floor, load, refuse_in_one_line, run_python, shown_on_a_terminal, ticks_during
 from tumble import Knot, Scene, Wrench, simulate
 
 G = 9.81
@@ -212,24 +211,8 @@ def test_ctrl_c_keeps_what_was_computed() -> None:
 
 
 def test_other_threads_run_meanwhile() -> None:
-    ticks, done = [], threading.Event()
-
-    def tick() -> None:
-        while not done.is_set():
-            ticks.append(time.monotonic())
-            time.sleep(0.005)
-
-    thread = threading.Thread(target=tick)
-    thread.start()
-    try:
-        start = time.monotonic()
-        simulate(load("pile"), duration=0.5, contacts=False)
-        end = time.monotonic()
-    finally:
-        done.set()
-        thread.join()
-    during = sum(start < t < end for t in ticks)
-    assert end - start < 0.1 or during > 5
+    ticks, seconds = ticks_during(lambda: simulate(load("pile"), duration=0.5, contacts=False))
+    assert ticks > 5 or seconds < 0.1
 
 
 def test_runs_side_by_side_are_those_one_after_the_other() -> None:
