@@ -1,4 +1,5 @@
 // tumble._core: batches of drops. Public face: tumble/_batch.py.
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -125,7 +126,9 @@ py::tuple simulate_batch(const py::object& q0, const py::object& v0, const py::d
   const auto or_none = [](const py::array& array, bool is_wanted) {
     return is_wanted ? py::object(array) : py::none();
   };
-  return py::make_tuple(or_none(q, states), or_none(v, states), status, columns, or_none(told, measures));
+  const bool has_invalid =
+      std::find(results.status.begin(), results.status.end(), batch::DropStatus::invalid) != results.status.end();
+  return py::make_tuple(has_invalid, or_none(q, states), or_none(v, states), status, columns, or_none(told, measures));
 }
 
 std::string what_is_invalid(const py::object& q0, const py::object& v0, const py::dict& params, std::size_t i) {

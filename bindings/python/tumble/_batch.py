@@ -47,7 +47,7 @@ class Batch:
     status: NDArray[np.uint8]
     columns: NDArray[np.int32]
     measures: NDArray[Any] | None
-    _invalid: tuple[Any, Any, dict[str, Any]]  # starts and parameters of those that are
+    _invalid: Any  # starts and parameters of those that are, or None
 
     def __len__(self) -> int:
         return len(self.status)
@@ -68,7 +68,8 @@ class Batch:
         index %= len(self)
         if self.status[index] != _INVALID:
             return ""
-        return _core.what_is_invalid(*self._invalid, int(np.count_nonzero(self.status[:index] == _INVALID)))
+        q0, v0, values = self._invalid
+        return _core.what_is_invalid(q0, v0, values, int(np.count_nonzero(self.status[:index] == _INVALID)))
 
 
 def simulate_batch(
@@ -153,24 +154,27 @@ def simulate_batch(
         raise ValueError(f"dtype: must be float64 or float32, got {dtype!r}") from None
     if kind not in (np.float64, np.float32):
         raise ValueError(f"dtype: must be float64 or float32, got {kind}")
-    simulate = _core.simulate_batch if kind == np.float64 else _core.simulate_batch_single
-    bounds = (_number("rest_speed", rest_speed), *_region(region))
-    cores = _threads(threads)
+    settings = (_number("rest_speed", rest_speed), *_region(region), _threads(threads), instruction_set)
     line = ProgressLine() if progress else None
+    told = None if line is None else _teller(line, np.shape(q0)[0])
+    arguments = (q0, v0, arrays, every, states, bool(measures) or not states, *settings, told)
     try:
-        told = None if line is None else _teller(line, np.shape(q0)[0])
-        with np.errstate(over="ignore"):  # of numbers that float32 cannot hold: those drops are invalid
-            results = simulate(q0, v0, arrays, every, states, bool(measures) or not states, *bounds, cores, instruction_set, told)
+        results: Any = _core.simulate_batch(*arguments) if kind == np.float64 else _single(arguments)
     finally:
         if line is not None:
             line.clear()
-    return Batch(*results, _rows_of(results[2] == _INVALID, q0, v0, arrays, kind))
+    has_invalid, q, v, status, columns, told_of = results
+    invalid = _rows_of(status == _INVALID, q0, v0, arrays, kind) if has_invalid else None
+    return Batch(q, v, status, columns, told_of, invalid)
+
+
+def _single(arguments: tuple[Any, ...]) -> Any:
+    with np.errstate(over="ignore"):  # what float32 cannot hold becomes infinite, and its drop is invalid
+        return _core.simulate_batch_single(*arguments)
 
 
 def _rows_of(chosen: NDArray[np.bool_], q0: ArrayLike, v0: ArrayLike, arrays: dict[str, Any], kind: Any) -> Any:
-    """Copies, since the caller may change the arrays later; None if there are no such rows, which is the usual case."""
-    if not chosen.any():
-        return None
+    """Copies, since the caller may change the arrays later."""
     values = {name: np.asarray(value)[chosen] if np.size(value) == len(chosen) != 1 else value for name, value in arrays.items()}
     with np.errstate(over="ignore"):
         return np.asarray(q0)[chosen].astype(kind), np.asarray(v0)[chosen].astype(kind), values

@@ -68,7 +68,7 @@ def simulate_batch(
     threads: int,
     instruction_set: str | None,
     progress: Any,
-) -> tuple[NDArray[Any] | None, NDArray[Any] | None, NDArray[np.uint8], NDArray[np.int32], NDArray[Any] | None]: ...
+) -> tuple[bool, NDArray[Any] | None, NDArray[Any] | None, NDArray[np.uint8], NDArray[np.int32], NDArray[Any] | None]: ...
 
 simulate_batch_single = simulate_batch
 
