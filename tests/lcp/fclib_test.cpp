@@ -3,6 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "../temporary_folder.hpp"
 #include "fclib_file.hpp"
 #include "problems.hpp"
 #include <gtest/gtest.h>
@@ -10,12 +11,9 @@
 namespace tumble {
 namespace {
 
-std::filesystem::path file_in_temp(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / ("tumble_fclib_" + name);
-}
-
 TEST(Fclib, ReadsBackWhatItWrote) {
-  const std::filesystem::path path = file_in_temp("round_trip.hdf5");
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "round_trip.hdf5";
   for (const problems::Family& family : problems::families()) {
     for (const std::size_t num_contacts : {1u, 2u, 7u}) {
       problems::Random random(num_contacts);
@@ -28,11 +26,11 @@ TEST(Fclib, ReadsBackWhatItWrote) {
       EXPECT_EQ(again.row_sizes, problem.row_sizes) << family.name;
     }
   }
-  std::filesystem::remove(path);
 }
 
 TEST(Fclib, RefusesProblemsThatAreNotOfContacts) {
-  const std::filesystem::path path = file_in_temp("refused.hdf5");
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "refused.hdf5";
   EXPECT_THROW(problems::write_fclib(path, {{1}, {-1}, {}}), std::invalid_argument);
   problems::Random random(1);
   LcpProblem problem = as_lcp(problems::tower(random, 2));
@@ -42,11 +40,11 @@ TEST(Fclib, RefusesProblemsThatAreNotOfContacts) {
 }
 
 TEST(Fclib, RefusesFilesThatAreNotItsOwn) {
-  const std::filesystem::path path = file_in_temp("text.hdf5");
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "text.hdf5";
   EXPECT_THROW(problems::read_fclib(path), std::runtime_error);
   std::ofstream(path) << "M\n1\nq\n1\n";
   EXPECT_THROW(problems::read_fclib(path), std::runtime_error);
-  std::filesystem::remove(path);
 }
 
 }  // namespace

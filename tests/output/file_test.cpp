@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "../temporary_folder.hpp"
 #include "record_samples.hpp"
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::has;
 using test::message_of;
-using test::TemporaryFolder;
+using tumble::test::TemporaryFolder;
 
 std::string content(const fs::path& path) { return read_file(path, 1 << 24); }
 

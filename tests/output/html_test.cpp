@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "../temporary_folder.hpp"
 #include "record_samples.hpp"
 #include <zlib.h>
 
@@ -100,7 +101,7 @@ TEST(Html, RefusesTextsThatNoBrowserHolds) {
 }
 
 TEST(Html, IsWrittenIntoThePageNamed) {
-  const test::TemporaryFolder folder;
+  const tumble::test::TemporaryFolder folder;
   WriteOptions options;
   const auto refusal = [&] {
     return test::message_of<std::runtime_error>([&] { check_writable(folder / "run.html", options); });

@@ -1,5 +1,6 @@
 #include "tumble/output/trajectory_csv.hpp"
 
+#include "../temporary_folder.hpp"
 #include "record_samples.hpp"
 
 #include "tumble/output/file.hpp"
@@ -77,7 +78,7 @@ TEST(TrajectoryCsv, RowsDoNotDependOnHowManyAreAskedFor) {
 }
 
 TEST(WriteTrajectory, EveryFormat) {
-  const test::TemporaryFolder folder;
+  const tumble::test::TemporaryFolder folder;
   std::vector<std::string> endings = {"csv", "contacts.csv", "npz", "gif", "png", "svg", "Contacts.CSV"};
   if (has_hdf5()) endings.push_back("h5");
   for (const std::string& ending : endings) {
@@ -89,7 +90,7 @@ TEST(WriteTrajectory, EveryFormat) {
 }
 
 TEST(WriteTrajectory, RefusesWhatIsInconsistent) {
-  const test::TemporaryFolder folder;
+  const tumble::test::TemporaryFolder folder;
   const auto refusal = [&](auto change) {
     Trajectory trajectory = ball_at_rest();
     change(trajectory);

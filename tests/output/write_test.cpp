@@ -4,6 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "../temporary_folder.hpp"
 #include "record_samples.hpp"
 #include <sys/stat.h>
 
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::has;
 using test::message_of;
-using test::TemporaryFolder;
+using tumble::test::TemporaryFolder;
 
 bool has_ffmpeg() {
   try {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 
+#include "../temporary_folder.hpp"
 #include <gtest/gtest.h>
 
 #include "tumble/output/file.hpp"
@@ -19,9 +20,9 @@ constexpr ChunkId k_id = {77, 5};
 class ChunkFile : public testing::Test {
  protected:
   void SetUp() override { write_chunk_file(path, k_id, parts); }
-  void TearDown() override { fs::remove(path); }
 
-  const fs::path path = fs::path(testing::TempDir()) / "tumble_chunk_file_test.chunk";
+  const tumble::test::TemporaryFolder folder;
+  const fs::path path = folder / "0.chunk";
   const std::vector<std::string> parts = {"first", "", std::string(40, 'x')};
 };
 

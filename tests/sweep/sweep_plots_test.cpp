@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include "../temporary_folder.hpp"
 #include "sample_columns.hpp"
 #include <gtest/gtest.h>
 
@@ -130,13 +131,12 @@ TEST(SweepPlots, WhatIsWrongIsNamed) {
 
 TEST(SweepPlots, AFileIsWrittenOnce) {
   const Sample sample(sample_layout(), sample_columns(10));
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "tumble_sweep_plot.svg";
-  std::filesystem::remove(path);
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "plot.svg";
   write_plot(sample.source(), path, {}, false);
   EXPECT_EQ(output::read_file(path, 1u << 24), to_plot_svg(sample.source(), {}));
   EXPECT_THROW(write_plot(sample.source(), path, {}, false), std::invalid_argument);
   write_plot(sample.source(), path, {"faces"}, true);
-  std::filesystem::remove(path);
 }
 
 }  // namespace
