@@ -6,8 +6,8 @@
 #include "commands.hpp"
 #include "input.hpp"
 #include "json.hpp"
-#include <fmt/format.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/trajectory/scene_warnings.hpp"
 
 namespace tumble::cli {
@@ -24,19 +24,20 @@ std::size_t count(const Scene& scene, BodyKind kind) {
 std::string body_row(const Body& body, const std::string& label, std::size_t width) {
   const auto& [position, angle] = body.pose;
   const bool is_dynamic = body.kind == BodyKind::dynamic;
-  return fmt::format("{:<{}}  {:<9}  {:>5}  {:>9}  {:>17}  {:>10.5g} {:>10.5g} {:>11.5g}\n", label, width,
-                     to_string(body.kind), body.parts.size(), is_dynamic ? fmt::format("{:.5g}", body.mass) : "",
-                     is_dynamic ? fmt::format("{:.5g}", body.moment_of_inertia) : "", position.x, position.y, angle);
+  return tumble::format("{:<{}}  {:<9}  {:>5}  {:>9}  {:>17}  {:>10.5g} {:>10.5g} {:>11.5g}\n", label, width,
+                        to_string(body.kind), body.parts.size(), is_dynamic ? tumble::format("{:.5g}", body.mass) : "",
+                        is_dynamic ? tumble::format("{:.5g}", body.moment_of_inertia) : "", position.x, position.y,
+                        angle);
 }
 
 std::string body_table(const Scene& scene, const std::vector<std::string>& labels) {
   const std::size_t rows = std::min(labels.size(), k_most_rows);
   std::size_t width = 4;
   for (std::size_t i = 0; i < rows; ++i) width = std::max(width, labels[i].size());
-  std::string text = fmt::format("{:<{}}  {:<9}  {:>5}  {:>9}  {:>17}  {:>10} {:>10} {:>11}\n", "body", width, "kind",
-                                 "parts", "mass [kg]", "inertia [kg m^2]", "x [m]", "y [m]", "angle [rad]");
+  std::string text = tumble::format("{:<{}}  {:<9}  {:>5}  {:>9}  {:>17}  {:>10} {:>10} {:>11}\n", "body", width,
+                                    "kind", "parts", "mass [kg]", "inertia [kg m^2]", "x [m]", "y [m]", "angle [rad]");
   for (std::size_t i = 0; i < rows; ++i) text += body_row(scene.bodies[i], labels[i], width);
-  if (rows < labels.size()) text += fmt::format("... and {} more; --json has all\n", labels.size() - rows);
+  if (rows < labels.size()) text += tumble::format("... and {} more; --json has all\n", labels.size() - rows);
   return text;
 }
 
@@ -48,9 +49,9 @@ std::string warning_lines(const Scene& scene, const std::vector<std::string>& la
     const auto end = std::find_if(first, warnings.end(), [&](const SceneWarning& w) { return w.kind != first->kind; });
     const auto shown = std::min(end - first, static_cast<std::ptrdiff_t>(k_most_of_kind));
     for (auto warning = first; warning != first + shown; ++warning) {
-      text += fmt::format("warning: {}\n", to_text(*warning, scene, labels));
+      text += tumble::format("warning: {}\n", to_text(*warning, scene, labels));
     }
-    if (end - first > shown) text += fmt::format("         and {} more of this kind\n", end - first - shown);
+    if (end - first > shown) text += tumble::format("         and {} more of this kind\n", end - first - shown);
     first = end;
   }
   return text;
@@ -59,9 +60,10 @@ std::string warning_lines(const Scene& scene, const std::vector<std::string>& la
 std::string check_text(const Scene& scene, const std::vector<SceneWarning>& warnings) {
   const std::vector<std::string> labels = body_labels(scene);
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
-  text += fmt::format("{} dynamic, {} kinematic, {} fixed; gravity {}, {} m/s^2; {} s in steps of {} s\n\n",
-                      count(scene, BodyKind::dynamic), count(scene, BodyKind::kinematic), count(scene, BodyKind::fixed),
-                      scene.gravity.x, scene.gravity.y, scene.duration, scene.step_size);
+  text +=
+      tumble::format("{} dynamic, {} kinematic, {} fixed; gravity {}, {} m/s^2; {} s in steps of {} s\n\n",
+                     count(scene, BodyKind::dynamic), count(scene, BodyKind::kinematic), count(scene, BodyKind::fixed),
+                     scene.gravity.x, scene.gravity.y, scene.duration, scene.step_size);
   return text + body_table(scene, labels) + "\n" + warning_lines(scene, labels, warnings);
 }
 
@@ -105,7 +107,7 @@ int check_scene(const CheckOptions& options) {
   const Scene scene = read_scene(options.input);
   const std::vector<SceneWarning> warnings = scene_warnings(scene);
   if (!options.report.quiet) {
-    fmt::print("{}", options.report.json ? check_json(scene, warnings) : check_text(scene, warnings));
+    tumble::print("{}", options.report.json ? check_json(scene, warnings) : check_text(scene, warnings));
   }
   return warnings.empty() ? k_done : k_warnings;
 }

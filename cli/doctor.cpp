@@ -5,11 +5,10 @@
 #include "commands.hpp"
 #include "input.hpp"
 #include "json.hpp"
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "tumble/batch/parallel.hpp"
 #include "tumble/batch/reference_run.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/output/versions.hpp"
 
 namespace tumble::cli {
@@ -41,14 +40,15 @@ std::string page_text() {
 }
 
 std::string text(const std::vector<ReferenceRun>& runs) {
-  std::string text = fmt::format("tumble           {}\ncompiler         {}, {}\n", TUMBLE_VERSION, k_compiler,
-                                 *TUMBLE_BUILD_TYPE ? TUMBLE_BUILD_TYPE : "no build type");
-  for (const auto& [name, version] : output::library_versions()) text += fmt::format("{:<16} {}\n", name, version);
-  text += fmt::format("page             {}\ncores            {}\n", page_text(), batch::num_cores());
-  text += fmt::format("instruction set  {}\n", to_string(instruction_set()));
+  std::string text = tumble::format("tumble           {}\ncompiler         {}, {}\n", TUMBLE_VERSION, k_compiler,
+                                    *TUMBLE_BUILD_TYPE ? TUMBLE_BUILD_TYPE : "no build type");
+  for (const auto& [name, version] : output::library_versions()) text += tumble::format("{:<16} {}\n", name, version);
+  text += tumble::format("page             {}\ncores            {}\n", page_text(), batch::num_cores());
+  text += tumble::format("instruction set  {}\n", to_string(instruction_set()));
   for (const ReferenceRun& run : runs) {
-    text += fmt::format("reference run    {:016x}  {:<8} {}\n", run.hash, to_string(run.set),
-                        run.is_right() ? "as everywhere" : fmt::format("WRONG: {:016x}", batch::k_reference_hash));
+    text +=
+        tumble::format("reference run    {:016x}  {:<8} {}\n", run.hash, to_string(run.set),
+                       run.is_right() ? "as everywhere" : tumble::format("WRONG: {:016x}", batch::k_reference_hash));
   }
   return text;
 }
@@ -58,9 +58,9 @@ Json json(const std::vector<ReferenceRun>& runs) {
   for (const auto& [name, version] : output::library_versions()) report["libraries"][name] = version;
   report["cores"] = batch::num_cores();
   report["instruction_set"] = to_string(instruction_set());
-  report["reference_hash"] = fmt::format("{:016x}", batch::k_reference_hash);
+  report["reference_hash"] = tumble::format("{:016x}", batch::k_reference_hash);
   for (const ReferenceRun& run : runs) {
-    report["hashes"][std::string(to_string(run.set))] = fmt::format("{:016x}", run.hash);
+    report["hashes"][std::string(to_string(run.set))] = tumble::format("{:016x}", run.hash);
   }
   return report;
 }
@@ -70,16 +70,16 @@ Json json(const std::vector<ReferenceRun>& runs) {
 int run_doctor(const ReportOptions& options) {
   const std::vector<ReferenceRun> runs = reference_runs();
   if (options.json) {
-    fmt::print("{}", to_text(json(runs)));
+    tumble::print("{}", to_text(json(runs)));
   } else if (!options.quiet) {
-    fmt::print("{}", text(runs));
+    tumble::print("{}", text(runs));
   }
   for (const ReferenceRun& run : runs) {
     if (run.is_right()) continue;
     return report_failure(
-        fmt::format("{}: the reference run gives {:016x} in place of {:016x}: this build or this machine computes "
-                    "other numbers than it should",
-                    to_string(run.set), run.hash, batch::k_reference_hash),
+        tumble::format("{}: the reference run gives {:016x} in place of {:016x}: this build or this machine computes "
+                       "other numbers than it should",
+                       to_string(run.set), run.hash, batch::k_reference_hash),
         k_numerical_failure);
   }
   return k_done;

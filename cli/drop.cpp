@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "report.hpp"
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 
@@ -11,12 +12,12 @@ int run_drop(const DropOptions& options) {
   const drop::Record record = drop::simulate_with_record(options.q0, options.v0, options.parameters);
   for (const std::string& file : files) output::write_record(record, file, pictures);
   if (!options.report.quiet) {
-    fmt::print("{}", options.report.json ? drop_json(record, files) : drop_text(record, files));
+    tumble::print("{}", options.report.json ? drop_json(record, files) : drop_text(record, files));
   }
   const auto& [columns, q, v, status] = record.trajectory;
   if (status == LcpStatus::solved) return k_done;
-  return report_failure(fmt::format("step {} of {} left the range of double arithmetic: status {}", columns,
-                                    options.parameters.columns - 1, to_string(status)),
+  return report_failure(tumble::format("step {} of {} left the range of double arithmetic: status {}", columns,
+                                       options.parameters.columns - 1, to_string(status)),
                         k_numerical_failure);
 }
 

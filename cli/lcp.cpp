@@ -6,10 +6,10 @@
 #include "input.hpp"
 #include "lcp_report.hpp"
 #include "lcp_trace.hpp"
-#include <fmt/format.h>
 
 #include "tumble/lcp/methods.hpp"
 #include "tumble/lcp/problem_text.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -19,14 +19,14 @@ LcpSettings chosen_settings(const LcpOptions& options) {
   const char* needed = options.all ? "enumerate" : options.trace ? "lemke" : "";
   const std::string& method = options.method;
   if (*needed != '\0' && !method.empty() && method != needed) {
-    throw std::invalid_argument(
-        fmt::format("--{}: belongs to the method {}, got --method {}", options.all ? "all" : "trace", needed, method));
+    throw std::invalid_argument(tumble::format("--{}: belongs to the method {}, got --method {}",
+                                               options.all ? "all" : "trace", needed, method));
   }
   LcpSettings settings = lcp_method(!method.empty() ? method : *needed != '\0' ? needed : "robust").defaults;
   for (const std::string& word : options.settings) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0) {
-      throw std::invalid_argument(fmt::format("--set: must be NAME=VALUE, got '{}'", word));
+      throw std::invalid_argument(tumble::format("--set: must be NAME=VALUE, got '{}'", word));
     }
     set_by_name(settings, word.substr(0, equals), word.substr(equals + 1));
   }
@@ -40,7 +40,7 @@ LcpProblem read_problem(const std::string& file) { return parse_lcp(read_input(f
 
 const std::string& only_file(const LcpOptions& options, const char* option) {
   if (options.files.size() == 1) return options.files.front();
-  throw std::invalid_argument(fmt::format("{}: takes one file, got {}", option, options.files.size()));
+  throw std::invalid_argument(tumble::format("{}: takes one file, got {}", option, options.files.size()));
 }
 
 LcpReport solve(const std::string& file, const LcpSettings& settings, bool all) {
@@ -59,12 +59,13 @@ int exit_code(const LcpReport& report) {
 
 int end_of_one(const LcpReport& report) {
   if (status_of(report) == LcpStatus::solved) return k_done;
-  return report_failure(fmt::format("no solution found: status {}", to_string(status_of(report))), exit_code(report));
+  return report_failure(tumble::format("no solution found: status {}", to_string(status_of(report))),
+                        exit_code(report));
 }
 
 int run_one(const LcpOptions& options, const LcpSettings& settings) {
   const LcpReport report = solve(options.files.front(), settings, options.all);
-  if (!options.report.quiet) fmt::print("{}", options.report.json ? lcp_json(report) : lcp_text(report));
+  if (!options.report.quiet) tumble::print("{}", options.report.json ? lcp_json(report) : lcp_text(report));
   return end_of_one(report);
 }
 
@@ -74,11 +75,11 @@ int run_trace(const LcpOptions& options, const LemkeSettings& settings) {
   const std::size_t n = problem.size();
   if (n > k_max_trace_size) {
     throw std::invalid_argument(
-        fmt::format("--trace: takes problems of at most {} unknowns, got {}", k_max_trace_size, n));
+        tumble::format("--trace: takes problems of at most {} unknowns, got {}", k_max_trace_size, n));
   }
   const LemkeTrace trace = trace_lemke(problem, settings);
   const LcpReport report{input_name(file), n, false, {trace.result}, {}};
-  if (!options.report.quiet) fmt::print("{}\n{}", trace_text(trace, n, settings), lcp_text(report));
+  if (!options.report.quiet) tumble::print("{}\n{}", trace_text(trace, n, settings), lcp_text(report));
   return end_of_one(report);
 }
 
@@ -100,11 +101,11 @@ int run_many(const LcpOptions& options, const LcpSettings& settings) {
     }
     worst = std::max(worst, exit_code(reports.back()));
   }
-  if (!options.report.quiet) fmt::print("{}", options.report.json ? lcp_json(reports) : lcp_text(reports));
+  if (!options.report.quiet) tumble::print("{}", options.report.json ? lcp_json(reports) : lcp_text(reports));
   if (worst == k_done) return k_done;
   const auto num_failed = std::count_if(reports.begin(), reports.end(),
                                         [](const LcpReport& report) { return exit_code(report) != k_done; });
-  return report_failure(fmt::format("{} of {} files not solved", num_failed, reports.size()), worst);
+  return report_failure(tumble::format("{} of {} files not solved", num_failed, reports.size()), worst);
 }
 
 }  // namespace

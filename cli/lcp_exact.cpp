@@ -2,11 +2,10 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "lcp_report.hpp"
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "tumble/lcp/exact.hpp"
 #include "tumble/lcp/problem_text.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -15,16 +14,16 @@ using Fractions = std::vector<std::string>;
 
 // Fractions, and the nearest doubles on a line of their own where they say more.
 std::string lines(std::string_view name, const Fractions& numbers) {
-  std::string text = fmt::format("{:<18}{}\n", name, fmt::join(numbers, " "));
+  std::string text = tumble::format("{:<18}{}\n", name, tumble::join(numbers, " "));
   bool has_fraction = false;
   for (const std::string& number : numbers) has_fraction = has_fraction || number.find('/') != std::string::npos;
-  if (has_fraction) text += fmt::format("{:<18}{}\n", "", fmt::join(as_doubles(numbers), " "));
+  if (has_fraction) text += tumble::format("{:<18}{}\n", "", tumble::join(as_doubles(numbers), " "));
   return text;
 }
 
 std::string solution_text(const ExactResult& solution) {
   return lines("z", solution.z) + lines("w", solution.w) +
-         fmt::format("{:<18}{}\n", "basis", basis_text(solution.basis));
+         tumble::format("{:<18}{}\n", "basis", basis_text(solution.basis));
 }
 
 std::string certificate_text(LcpStatus status, const Fractions& certificate) {
@@ -34,27 +33,27 @@ std::string certificate_text(LcpStatus status, const Fractions& certificate) {
 }
 
 std::string exact_text(const ExactResult& result) {
-  std::string text = fmt::format("status            {}\n", to_string(result.status));
+  std::string text = tumble::format("status            {}\n", to_string(result.status));
   if (!result.z.empty()) text += solution_text(result);
   return text + certificate_text(result.status, result.certificate);
 }
 
 std::string exact_text(const ExactLcp& problem, const ExactSolutionSet& set) {
   const auto count = [](std::size_t number, const char* what) {
-    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+    return tumble::format("{} {}{}", number, what, number == 1 ? "" : "s");
   };
-  std::string text = fmt::format("{}, {}, {} of the LCP with n = {}\nstatus            {}\n",
-                                 count(set.vertices.size(), "vertex solution"), count(set.rays.size(), "ray"),
-                                 count(set.faces.size(), "face"), problem.size(), to_string(set.status));
+  std::string text = tumble::format("{}, {}, {} of the LCP with n = {}\nstatus            {}\n",
+                                    count(set.vertices.size(), "vertex solution"), count(set.rays.size(), "ray"),
+                                    count(set.faces.size(), "face"), problem.size(), to_string(set.status));
   for (std::size_t v = 0; v < set.vertices.size(); ++v) {
-    text += fmt::format("\nvertex            {}\n{}", v, solution_text(set.vertices[v]));
+    text += tumble::format("\nvertex            {}\n{}", v, solution_text(set.vertices[v]));
   }
   for (std::size_t r = 0; r < set.rays.size(); ++r)
-    text += fmt::format("\nray               {}\n{}", r, lines("z", set.rays[r]));
+    text += tumble::format("\nray               {}\n{}", r, lines("z", set.rays[r]));
   if (!set.faces.empty()) text += "\n";
   for (std::size_t f = 0; f < set.faces.size(); ++f) {
-    text += fmt::format("face              {}: vertices {}", f, fmt::join(set.faces[f].vertices, " "));
-    text += set.faces[f].rays.empty() ? "\n" : fmt::format(", rays {}\n", fmt::join(set.faces[f].rays, " "));
+    text += tumble::format("face              {}: vertices {}", f, tumble::join(set.faces[f].vertices, " "));
+    text += set.faces[f].rays.empty() ? "\n" : tumble::format(", rays {}\n", tumble::join(set.faces[f].rays, " "));
   }
   return text + certificate_text(set.status, set.certificate);
 }
@@ -96,9 +95,9 @@ int run_lcp_exact(const std::string& text, const std::string& name, const LcpOpt
     status = result.status;
     report = options.report.json ? to_text(json_of(result)) : exact_text(result);
   }
-  if (!options.report.quiet) fmt::print("{}", report);
+  if (!options.report.quiet) tumble::print("{}", report);
   if (status == LcpStatus::solved) return k_done;
-  return report_failure(fmt::format("no solution found: status {}", to_string(status)), k_numerical_failure);
+  return report_failure(tumble::format("no solution found: status {}", to_string(status)), k_numerical_failure);
 }
 
 }  // namespace tumble::cli

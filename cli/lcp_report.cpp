@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "json.hpp"
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -17,20 +17,20 @@ std::string certificate_text(const LcpResult& result) {
   if (result.certificate.empty()) return "";
   const char* meaning =
       result.status == LcpStatus::infeasible ? "y: M'y <= 0, y >= 0, q'y < 0" : "direction of the ray";
-  return fmt::format("certificate       {}  ({})\n", fmt::join(result.certificate, " "), meaning);
+  return tumble::format("certificate       {}  ({})\n", tumble::join(result.certificate, " "), meaning);
 }
 
 std::string result_text(const LcpResult& result) {
   const auto& [negative_w, negative_z, complementarity] = result.parts;
-  std::string text = fmt::format("status            {}\n", to_string(result.status));
-  text += fmt::format("z                 {}\n", fmt::join(result.z, " "));
-  text += fmt::format("w                 {}\n", fmt::join(result.w, " "));
-  text += fmt::format("residual          {:.3g}  (w >= 0: {:.3g}, z >= 0: {:.3g}, w.z = 0: {:.3g})\n", result.residual,
-                      negative_w, negative_z, complementarity);
-  text += fmt::format("pivots            {}\n", result.pivots);
-  text += fmt::format("refactorisations  {}\n", result.refactorisations);
-  text += fmt::format("rung              {}\n", to_string(result.rung));
-  text += fmt::format("basis             {}\n", basis_text(result.basis));
+  std::string text = tumble::format("status            {}\n", to_string(result.status));
+  text += tumble::format("z                 {}\n", tumble::join(result.z, " "));
+  text += tumble::format("w                 {}\n", tumble::join(result.w, " "));
+  text += tumble::format("residual          {:.3g}  (w >= 0: {:.3g}, z >= 0: {:.3g}, w.z = 0: {:.3g})\n",
+                         result.residual, negative_w, negative_z, complementarity);
+  text += tumble::format("pivots            {}\n", result.pivots);
+  text += tumble::format("refactorisations  {}\n", result.refactorisations);
+  text += tumble::format("rung              {}\n", to_string(result.rung));
+  text += tumble::format("basis             {}\n", basis_text(result.basis));
   return text + certificate_text(result);
 }
 
@@ -65,16 +65,16 @@ LcpStatus status_of(const LcpReport& report) {
 
 std::string basis_text(const std::vector<std::uint8_t>& basis) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < basis.size(); ++i) names.push_back(fmt::format("{}{}", basis[i] ? 'z' : 'w', i + 1));
-  return fmt::format("{}", fmt::join(names, " "));
+  for (std::size_t i = 0; i < basis.size(); ++i) names.push_back(tumble::format("{}{}", basis[i] ? 'z' : 'w', i + 1));
+  return tumble::join(names, " ");
 }
 
 std::string lcp_text(const LcpReport& report) {
   if (!report.all) return result_text(report.results.front());
   const std::size_t count = num_solutions(report);
   std::string text =
-      fmt::format("{} vertex solution{} of the LCP with n = {}\n", count, count == 1 ? "" : "s", report.n);
-  for (const LcpResult& result : report.results) text += fmt::format("\n{}", result_text(result));
+      tumble::format("{} vertex solution{} of the LCP with n = {}\n", count, count == 1 ? "" : "s", report.n);
+  for (const LcpResult& result : report.results) text += tumble::format("\n{}", result_text(result));
   return text;
 }
 
@@ -84,22 +84,22 @@ std::string lcp_text(const std::vector<LcpReport>& reports) {
   std::size_t width = 4;
   for (const LcpReport& report : reports) width = std::max(width, report.name.size());
   const bool all = reports.front().all;
-  std::string text = fmt::format("{:<{}}  {:>4}  {:<18}  {:>8}  {:>7}  {}rung\n", "file", width, "n", "status",
-                                 "residual", "pivots", all ? "solutions  " : "");
+  std::string text = tumble::format("{:<{}}  {:>4}  {:<18}  {:>8}  {:>7}  {}rung\n", "file", width, "n", "status",
+                                    "residual", "pivots", all ? "solutions  " : "");
   std::size_t num_solved = 0;
   for (const LcpReport& report : reports) {
     if (status_of(report) == LcpStatus::solved) ++num_solved;
-    text += fmt::format("{:<{}}  ", report.name, width);
+    text += tumble::format("{:<{}}  ", report.name, width);
     if (report.results.empty()) {
-      text += fmt::format("{:>4}  {}\n", "-", to_string(status_of(report)));
+      text += tumble::format("{:>4}  {}\n", "-", to_string(status_of(report)));
       continue;
     }
     const LcpResult& result = report.results.front();
-    text +=
-        fmt::format("{:>4}  {:<18}  {:>8.1e}  {:>7}  {}{}\n", report.n, to_string(result.status), result.residual,
-                    result.pivots, all ? fmt::format("{:>9}  ", num_solutions(report)) : "", to_string(result.rung));
+    text += tumble::format("{:>4}  {:<18}  {:>8.1e}  {:>7}  {}{}\n", report.n, to_string(result.status),
+                           result.residual, result.pivots, all ? tumble::format("{:>9}  ", num_solutions(report)) : "",
+                           to_string(result.rung));
   }
-  return text + fmt::format("{} of {} solved\n", num_solved, reports.size());
+  return text + tumble::format("{} of {} solved\n", num_solved, reports.size());
 }
 
 std::string lcp_json(const std::vector<LcpReport>& reports) {

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "tumble/explain/lemke_pages.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -15,10 +14,10 @@ using Index = std::size_t;
 
 // Four digits, or as many of them as fit: tableaus of k_max_trace_size rows stay within 120 columns.
 std::string number(double x) {
-  if (std::abs(x) >= 1e4 && std::abs(x) < 9e6) return fmt::format("{:.0f}", x);
+  if (std::abs(x) >= 1e4 && std::abs(x) < 9e6) return tumble::format("{:.0f}", x);
   std::string text;
   for (int digits = 4; digits > 0 && (text.empty() || text.size() > 8); --digits) {
-    text = fmt::format("{:.{}g}", x == 0.0 ? 0.0 : x, digits);
+    text = tumble::format("{:.{}g}", x == 0.0 ? 0.0 : x, digits);
   }
   return text;
 }
@@ -42,8 +41,8 @@ std::vector<std::vector<std::string>> cells(const LemkePage& page, bool with_rat
 std::string table_text(const std::vector<std::vector<std::string>>& rows, Index width) {
   std::string text;
   for (const std::vector<std::string>& row : rows) {
-    text += fmt::format("  {:<5}", row.front());
-    for (Index column = 1; column < row.size(); ++column) text += fmt::format("  {:>{}}", row[column], width);
+    text += tumble::format("  {:<5}", row.front());
+    for (Index column = 1; column < row.size(); ++column) text += tumble::format("  {:>{}}", row[column], width);
     text += '\n';
   }
   return text;
@@ -51,14 +50,14 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows, Index 
 
 std::string pivot_text(const LemkePage& before, const LemkePage& after, Index k) {
   const Index n = before.n();
-  std::string text = fmt::format("\nPivot {}: {} enters", k, lemke_variable(*after.entered, n));
+  std::string text = tumble::format("\nPivot {}: {} enters", k, lemke_variable(*after.entered, n));
   const std::string leaving = lemke_variable(*after.left, n);
-  if (k == 1) return text + fmt::format(", {} leaves: its value is the most negative.\n", leaving);
+  if (k == 1) return text + tumble::format(", {} leaves: its value is the most negative.\n", leaving);
   const auto row =
       static_cast<Index>(std::find(before.basis.begin(), before.basis.end(), *after.left) - before.basis.begin());
-  text += fmt::format(", the complement of {}. {} leaves", lemke_variable(*before.left, n), leaving);
+  text += tumble::format(", the complement of {}. {} leaves", lemke_variable(*before.left, n), leaving);
   const std::optional<double> ratio = before.ratios[row];
-  return text + (ratio ? fmt::format(": the smallest ratio, {}.\n", number(*ratio)) : ".\n");
+  return text + (ratio ? tumble::format(": the smallest ratio, {}.\n", number(*ratio)) : ".\n");
 }
 
 }  // namespace
@@ -83,8 +82,8 @@ std::string trace_text(const LemkeTrace& trace, std::size_t n, const LemkeSettin
   if (end == LemkeEnd::solved)
     return text + "\nz0 has left: of each pair one variable is basic, and the values solve the problem.\n";
   if (end == LemkeEnd::stopped) return text + "\nStopped at the allowed number of pivots.\n";
-  return text + fmt::format("\n{} enters, the complement of {}. No row limits it: a ray, and no solution found.\n",
-                            lemke_variable(*pages.back().entering, n), lemke_variable(*pages.back().left, n));
+  return text + tumble::format("\n{} enters, the complement of {}. No row limits it: a ray, and no solution found.\n",
+                               lemke_variable(*pages.back().entering, n), lemke_variable(*pages.back().left, n));
 }
 
 }  // namespace tumble::cli

@@ -14,10 +14,9 @@
 #include "input.hpp"
 #include "text.hpp"
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "tumble/lcp/methods.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/output/file.hpp"
 
@@ -74,8 +73,8 @@ void add_parsed(CLI::App& app, const std::string& name, T& target, T (*parse)(co
 int picture_side(const std::string& option, const std::string& text) {
   const int side = whole_number(option, text);
   if (side >= output::k_smallest_picture && side <= output::k_largest_picture) return side;
-  throw std::invalid_argument(fmt::format("{}: must be in [{}, {}] px, got {}", option, output::k_smallest_picture,
-                                          output::k_largest_picture, side));
+  throw std::invalid_argument(tumble::format("{}: must be in [{}, {}] px, got {}", option, output::k_smallest_picture,
+                                             output::k_largest_picture, side));
 }
 
 // `data` are the endings of files that hold numbers.
@@ -83,7 +82,7 @@ void add_output_options(CLI::App& app, OutputOptions& output, const std::string&
   output.pictures.page = page_path();
   app.add_option(
          "-o,--output", output.files,
-         fmt::format(
+         tumble::format(
              "File to write; its ending picks the kind: {}, .png .svg (many poses in one picture), .gif "
              ".mp4 (animation in real time), .html (page that plays it in a browser; needs `make viewer`). May be "
              "given several times",
@@ -106,7 +105,7 @@ void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& com
   CLI::App& app = *program.add_subcommand("drop", "Drop a square on the ground and print its impacts");
   drop::Parameters& p = options.parameters;
   const auto add = [&](const std::string& name, double& target, const std::string& description) {
-    add_parsed(app, name, target, &number, description, fmt::format("{}", target), "NUMBER");
+    add_parsed(app, name, target, &number, description, tumble::format("{}", target), "NUMBER");
   };
   add_parsed(app, "--q0", options.q0, &planar_triple, "Start: centre of mass [m] and angle [rad, or with ending deg]",
              "0,1.5,30deg", "X,Y,THETA");
@@ -125,7 +124,7 @@ void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& com
            const int steps = whole_number("--steps", word);
            if (steps < 1 || steps >= drop::k_max_columns) {
              throw std::invalid_argument(
-                 fmt::format("--steps: must be in [1, {}], got {}", drop::k_max_columns - 1, steps));
+                 tumble::format("--steps: must be in [1, {}], got {}", drop::k_max_columns - 1, steps));
            }
            p.columns = steps + 1;
          },
@@ -141,7 +140,7 @@ void add_drop(CLI::App& program, DropOptions& options, std::function<int()>& com
 double positive_number(const std::string& option, const std::string& text) {
   const double value = number(option, text);
   if (value > 0.0) return value;
-  throw std::invalid_argument(fmt::format("{}: must be > 0, got {}", option, value));
+  throw std::invalid_argument(tumble::format("{}: must be > 0, got {}", option, value));
 }
 
 void add_scene_argument(CLI::App& app, std::string& input) {
@@ -191,12 +190,12 @@ void add_render(CLI::App& program, RenderOptions& options, std::function<int()>&
 std::string methods_text() {
   std::string text = "Methods, and what --set takes with its default:\n";
   for (const LcpMethod& method : lcp_methods()) {
-    text += fmt::format("  {:<10} {}\n", method.name, method.summary);
+    text += tumble::format("  {:<10} {}\n", method.name, method.summary);
     std::vector<std::string> settings;
     for (const auto& [name, value] : named_settings(method.defaults)) {
-      settings.push_back(fmt::format("{}={}", name, to_text(value)));
+      settings.push_back(tumble::format("{}={}", name, to_text(value)));
     }
-    text += fmt::format("  {:<10} {}\n", "", fmt::join(settings, " "));
+    text += tumble::format("  {:<10} {}\n", "", tumble::join(settings, " "));
   }
   return text;
 }
@@ -242,7 +241,7 @@ void parse_shard(const std::string& word, SweepOptions& options) {
       return;
     }
   }
-  throw std::invalid_argument(fmt::format("--shard: must be I/N, 1 <= I <= N, got '{}'", word));
+  throw std::invalid_argument(tumble::format("--shard: must be I/N, 1 <= I <= N, got '{}'", word));
 }
 
 void add_sweep_options(CLI::App& app, std::string& output, bool& overwrite, int& threads, const std::string& usual) {
@@ -306,7 +305,7 @@ void require_command(const CLI::App& program, const std::string& word) {
   const auto commands = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
   if (commands.empty() && !word.starts_with('-')) {
     throw std::invalid_argument(
-        fmt::format("there is no command '{}'; there are drop, run, check, render, sweep, lcp and doctor", word));
+        tumble::format("there is no command '{}'; there are drop, run, check, render, sweep, lcp and doctor", word));
   }
 }
 
@@ -354,7 +353,7 @@ int report_error(const std::exception& error) { return fail(with_option_name(err
 
 int report_failure(const std::string& message, int exit_code) {
   std::fflush(stdout);
-  fmt::print(stderr, "tumble: {}\n", output::path_text(message));  // words of the user may hold anything
+  tumble::print(stderr, "tumble: {}\n", output::path_text(message));  // words of the user may hold anything
   return exit_code;
 }
 
@@ -365,7 +364,7 @@ void require_different(const std::vector<std::string>& files) {
     const std::filesystem::path target =
         std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
     if (!seen.insert(target.empty() ? std::filesystem::path(file) : target).second) {
-      throw std::invalid_argument(fmt::format("--output: {} is named twice", file));
+      throw std::invalid_argument(tumble::format("--output: {} is named twice", file));
     }
   }
 }

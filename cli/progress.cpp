@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <string>
 
-#include <fmt/format.h>
 #include <unistd.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -16,9 +17,10 @@ constexpr std::chrono::milliseconds k_pause{200};
 constexpr const char* k_clear_line = "\r\x1b[K";
 
 std::string time_left(double seconds) {
-  if (seconds < 100.0) return fmt::format("{:.0f} s", std::ceil(seconds));
+  if (seconds < 100.0) return tumble::format("{:.0f} s", std::ceil(seconds));
   const auto minutes = static_cast<long long>(std::ceil(seconds / 60.0));
-  return minutes < 100 ? fmt::format("{} min", minutes) : fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+  return minutes < 100 ? tumble::format("{} min", minutes)
+                       : tumble::format("{} h {:02} min", minutes / 60, minutes % 60);
 }
 
 }  // namespace
@@ -32,7 +34,7 @@ Progress::Progress(std::int64_t total, double size, const char* unit)
       next_(start_ + k_patience) {}
 
 Progress::~Progress() {
-  if (has_shown_) fmt::print(stderr, k_clear_line);
+  if (has_shown_) tumble::print(stderr, k_clear_line);
 }
 
 void Progress::show(std::int64_t done) {
@@ -42,9 +44,9 @@ void Progress::show(std::int64_t done) {
   next_ = now + k_pause;
   const double share = static_cast<double>(done) / static_cast<double>(total_);
   const double elapsed = Seconds(now - start_).count();
-  fmt::print(stderr, "{}{:3.0f} %: {:.4g} {} of {:.4g} {}, {} left; Ctrl-C ends it", k_clear_line, 100.0 * share,
-             static_cast<double>(done) * size_, unit_, static_cast<double>(total_) * size_, unit_,
-             time_left(elapsed * (1.0 - share) / share));
+  tumble::print(stderr, "{}{:3.0f} %: {:.4g} {} of {:.4g} {}, {} left; Ctrl-C ends it", k_clear_line, 100.0 * share,
+                static_cast<double>(done) * size_, unit_, static_cast<double>(total_) * size_, unit_,
+                time_left(elapsed * (1.0 - share) / share));
   std::fflush(stderr);
   has_shown_ = true;
 }

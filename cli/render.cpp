@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "report.hpp"
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 
@@ -13,9 +13,10 @@ int run_render(const RenderOptions& options) {
   for (const std::string& file : files) output::write_record(record, file, pictures);
   if (options.report.quiet) return k_done;
   if (options.report.json) {
-    fmt::print("{}", drop_json(record, files));
+    tumble::print("{}", drop_json(record, files));
   } else {
-    fmt::print("read {}: {} columns; wrote {}\n", options.input, record.trajectory.columns, fmt::join(files, ", "));
+    tumble::print("read {}: {} columns; wrote {}\n", options.input, record.trajectory.columns,
+                  tumble::join(files, ", "));
   }
   return k_done;
 }

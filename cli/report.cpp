@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "json.hpp"
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -38,8 +38,8 @@ std::vector<Impact> find_impacts(const drop::Record& record) {
 }
 
 std::string state_text(const Vector3& q, const Vector3& v) {
-  return fmt::format("x {:.6g} m, y {:.6g} m, angle {:.6g} deg; vx {:.6g} m/s, vy {:.6g} m/s, omega {:.6g} rad/s", q[0],
-                     q[1], q[2] * (180.0 / std::numbers::pi), v[0], v[1], v[2]);
+  return tumble::format("x {:.6g} m, y {:.6g} m, angle {:.6g} deg; vx {:.6g} m/s, vy {:.6g} m/s, omega {:.6g} rad/s",
+                        q[0], q[1], q[2] * (180.0 / std::numbers::pi), v[0], v[1], v[2]);
 }
 
 std::string impact_table(const drop::Record& record) {
@@ -50,12 +50,12 @@ std::string impact_table(const drop::Record& record) {
   for (std::size_t i = 0; i < std::min(impacts.size(), max_rows); ++i) {
     const Impact& impact = impacts[i];
     const drop::StepRecord& step = record.steps[static_cast<std::size_t>(impact.column)];
-    text += fmt::format("{:8.3f}  {:6}  {:10}  {:15.5f}  {:15.5f}  {:15.5f}\n", impact.column * record.parameters.dt,
-                        k_corner_names[static_cast<std::size_t>(step.corner)], to_string(step.mode),
-                        impact.normal_impulse, impact.tangential_impulse, impact.energy_lost);
+    text += tumble::format("{:8.3f}  {:6}  {:10}  {:15.5f}  {:15.5f}  {:15.5f}\n", impact.column * record.parameters.dt,
+                           k_corner_names[static_cast<std::size_t>(step.corner)], to_string(step.mode),
+                           impact.normal_impulse, impact.tangential_impulse, impact.energy_lost);
   }
   if (impacts.size() > max_rows) {
-    text += fmt::format("... and {} more; -o FILE.csv has every step\n", impacts.size() - max_rows);
+    text += tumble::format("... and {} more; -o FILE.csv has every step\n", impacts.size() - max_rows);
   }
   return text;
 }
@@ -65,22 +65,23 @@ Json json_of(const Vector3& values) { return Json::array({values[0], values[1], 
 }  // namespace
 
 std::string files_text(const std::vector<std::string>& files) {
-  return files.empty() ? "" : fmt::format("wrote {}\n", fmt::join(files, ", "));
+  return files.empty() ? "" : tumble::format("wrote {}\n", tumble::join(files, ", "));
 }
 
 std::string drop_text(const drop::Record& record, const std::vector<std::string>& files) {
   const drop::Parameters& p = record.parameters;
   const drop::Trajectory& trajectory = record.trajectory;
   const int last = trajectory.columns - 1;
-  std::string text = fmt::format(
+  std::string text = tumble::format(
       "square of side {} m, mass {} kg, friction {}, restitution {}; {} step{} of {} s\nstart: {}\n\n", p.l, p.m, p.mu,
       p.eps, p.columns - 1, p.columns == 2 ? "" : "s", p.dt, state_text(trajectory.q_at(0), trajectory.v_at(0)));
   text += impact_table(record);
   if (trajectory.status != LcpStatus::solved) {
-    text += fmt::format("\nstep {} of {} left the range of double arithmetic: status {}, residual {:.3g}\n", last + 1,
-                        p.columns - 1, to_string(trajectory.status), record.steps.back().residual);
+    text += tumble::format("\nstep {} of {} left the range of double arithmetic: status {}, residual {:.3g}\n",
+                           last + 1, p.columns - 1, to_string(trajectory.status), record.steps.back().residual);
   }
-  text += fmt::format("\nafter {:.4g} s: {}\n", last * p.dt, state_text(trajectory.q_at(last), trajectory.v_at(last)));
+  text +=
+      tumble::format("\nafter {:.4g} s: {}\n", last * p.dt, state_text(trajectory.q_at(last), trajectory.v_at(last)));
   return text + files_text(files);
 }
 

@@ -8,8 +8,8 @@
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
-#include <fmt/format.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/file.hpp"
 
 namespace tumble::cli {
@@ -21,7 +21,7 @@ bool keeps_contacts(const RunOptions& options) {
   for (const std::string& file : options.output.files) {
     const output::ContactUse use = output::contact_use(file, options.output.pictures);
     if (options.no_contacts && use == output::ContactUse::all) {
-      throw std::invalid_argument(fmt::format("--no-contacts: {} holds nothing else", output::path_text(file)));
+      throw std::invalid_argument(tumble::format("--no-contacts: {} holds nothing else", output::path_text(file)));
     }
     are_shown = are_shown || use != output::ContactUse::none;
   }
@@ -44,11 +44,11 @@ Trajectory simulate(const Scene& scene, const SimulateSettings& settings, RunNot
 int end_of(const Trajectory& trajectory, const RunNotes& notes, double duration) {
   const double time = trajectory.time.back();
   if (notes.is_interrupted) {
-    return report_failure(fmt::format("interrupted at {:.6g} s of {:.6g} s", time, duration), k_interrupted);
+    return report_failure(tumble::format("interrupted at {:.6g} s of {:.6g} s", time, duration), k_interrupted);
   }
   if (trajectory.status == LcpStatus::solved) return k_done;
-  return report_failure(fmt::format("step {}, to {:.6g} s, was not solved: status {}, residual {:.3g}",
-                                    trajectory.num_steps, time, to_string(trajectory.status), trajectory.residual),
+  return report_failure(tumble::format("step {}, to {:.6g} s, was not solved: status {}, residual {:.3g}",
+                                       trajectory.num_steps, time, to_string(trajectory.status), trajectory.residual),
                         k_numerical_failure);
 }
 
@@ -76,7 +76,8 @@ int run_scene(const RunOptions& options) {
     }
   }
   if (!options.report.quiet) {
-    fmt::print("{}", options.report.json ? run_json(trajectory, notes, written) : run_text(trajectory, notes, written));
+    tumble::print("{}",
+                  options.report.json ? run_json(trajectory, notes, written) : run_text(trajectory, notes, written));
   }
   if (failure) std::rethrow_exception(failure);
   return end_of(trajectory, notes, duration);

@@ -6,7 +6,8 @@
 
 #include "json.hpp"
 #include "report.hpp"
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::cli {
 namespace {
@@ -58,7 +59,7 @@ std::string energy_lines(const Trajectory& trajectory) {
   const EnergyLedger start = trajectory.energy.front();
   const EnergyLedger sum = total(trajectory);
   const double before = start.kinetic + start.potential, after = sum.kinetic + sum.potential;
-  std::string text = fmt::format(
+  std::string text = tumble::format(
       "energy   {:.6g} J at the start, {:.6g} J at the end, {:.6g} J of it kinetic\n"
       "         lost: {:.6g} J to friction, {:.6g} J to impacts",
       before, after, sum.kinetic, sum.friction_loss, sum.impact_loss);
@@ -66,25 +67,25 @@ std::string energy_lines(const Trajectory& trajectory) {
   constexpr double k_rounding = 1e-12;
   const double size = std::max({std::abs(before), std::abs(after), sum.friction_loss, sum.impact_loss});
   const auto add = [&](const char* words, double value) {
-    if (std::abs(value) > k_rounding * size) text += fmt::format("{}{:.6g} J", words, value);
+    if (std::abs(value) > k_rounding * size) text += tumble::format("{}{:.6g} J", words, value);
   };
   add(", to damping ", sum.damping_loss);
   add("; work from outside ", sum.external_work);
   add("; work of position correction ", sum.stabilisation_work);
   text += '\n';
   if (trajectory.num_creating_steps > 0) {
-    text += fmt::format("         CREATED from nothing: {:.6g} J in {} step{}, first at {:.6g} s\n",
-                        trajectory.created_energy, trajectory.num_creating_steps,
-                        trajectory.num_creating_steps == 1 ? "" : "s", trajectory.first_creation);
+    text += tumble::format("         CREATED from nothing: {:.6g} J in {} step{}, first at {:.6g} s\n",
+                           trajectory.created_energy, trajectory.num_creating_steps,
+                           trajectory.num_creating_steps == 1 ? "" : "s", trajectory.first_creation);
   }
   return text;
 }
 
 std::string inexact_line(const Trajectory& trajectory) {
   if (trajectory.num_inexact_steps == 0) return "";
-  return fmt::format("INEXACT  {} step{}, the first at {:.6g} s: contact laws off by up to {:.1e} of the speeds\n",
-                     trajectory.num_inexact_steps, trajectory.num_inexact_steps == 1 ? "" : "s",
-                     trajectory.first_inexact, trajectory.residual);
+  return tumble::format("INEXACT  {} step{}, the first at {:.6g} s: contact laws off by up to {:.1e} of the speeds\n",
+                        trajectory.num_inexact_steps, trajectory.num_inexact_steps == 1 ? "" : "s",
+                        trajectory.first_inexact, trajectory.residual);
 }
 
 std::string end_line(const Trajectory& trajectory, const RunNotes& notes, const std::vector<std::string>& labels) {
@@ -92,13 +93,13 @@ std::string end_line(const Trajectory& trajectory, const RunNotes& notes, const 
   const int fastest = find_fastest(trajectory.scene, states);
   if (fastest < 0) return "end      nothing can move\n";
   if (is_at_rest(trajectory, states)) {
-    return notes.moving_until > 0.0 ? fmt::format("end      at rest since {:.6g} s\n", notes.moving_until)
+    return notes.moving_until > 0.0 ? tumble::format("end      at rest since {:.6g} s\n", notes.moving_until)
                                     : "end      at rest all the time\n";
   }
   const auto i = static_cast<std::size_t>(fastest);
   const Vector3& v = states[i].velocity;
-  return fmt::format("end      moving; fastest is {} with {:.4g} m/s and {:.4g} rad/s\n", labels[i],
-                     std::hypot(v[0], v[1]), v[2]);
+  return tumble::format("end      moving; fastest is {} with {:.4g} m/s and {:.4g} rad/s\n", labels[i],
+                        std::hypot(v[0], v[1]), v[2]);
 }
 
 Json json_of(const BodyState& state) {
@@ -128,15 +129,15 @@ std::string run_text(const Trajectory& trajectory, const RunNotes& notes, const 
   const auto num_moving = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                         [](const Body& body) { return body.kind == BodyKind::dynamic; });
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
-  text += fmt::format("{} bod{}, {} of them moved by forces; {} step{} of {} s\n\n", scene.bodies.size(),
-                      scene.bodies.size() == 1 ? "y" : "ies", num_moving, trajectory.num_steps,
-                      trajectory.num_steps == 1 ? "" : "s", trajectory.step_size);
-  text += fmt::format("status   {}, largest residual {:.3g}\n", to_string(trajectory.status), trajectory.residual);
+  text += tumble::format("{} bod{}, {} of them moved by forces; {} step{} of {} s\n\n", scene.bodies.size(),
+                         scene.bodies.size() == 1 ? "y" : "ies", num_moving, trajectory.num_steps,
+                         trajectory.num_steps == 1 ? "" : "s", trajectory.step_size);
+  text += tumble::format("status   {}, largest residual {:.3g}\n", to_string(trajectory.status), trajectory.residual);
   text += energy_lines(trajectory);
   text += notes.body_a < 0 ? "overlap  none\n"
-                           : fmt::format("overlap  at most {:.3g} m, {} and {} at {:.6g} s\n", -notes.deepest_gap,
-                                         labels[static_cast<std::size_t>(notes.body_a)],
-                                         labels[static_cast<std::size_t>(notes.body_b)], notes.time);
+                           : tumble::format("overlap  at most {:.3g} m, {} and {} at {:.6g} s\n", -notes.deepest_gap,
+                                            labels[static_cast<std::size_t>(notes.body_a)],
+                                            labels[static_cast<std::size_t>(notes.body_b)], notes.time);
   return text + inexact_line(trajectory) + end_line(trajectory, notes, labels) + files_text(files);
 }
 

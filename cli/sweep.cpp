@@ -12,9 +12,9 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "sweep_mpi.hpp"
-#include <fmt/format.h>
 
 #include "tumble/batch/parallel.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/output/file.hpp"
 #include "tumble/output/table.hpp"
 #include "tumble/scene/limits.hpp"
@@ -84,12 +84,12 @@ void finish(std::span<const sweep::Folder> folders, const Targets& targets, bool
   }
   if (report.quiet) return;
   if (!report.json) {
-    fmt::print("{}{}", sweep::to_text(summary), files_text(files));
+    tumble::print("{}{}", sweep::to_text(summary), files_text(files));
     return;
   }
   Json json = Json::parse(sweep::to_json(summary));
   json["files"] = files;
-  fmt::print("{}", to_text(json));
+  tumble::print("{}", to_text(json));
 }
 
 sweep::RunReport compute(const sweep::Folder& folder, const SweepOptions& options, Processes& processes) {
@@ -104,7 +104,7 @@ sweep::RunReport compute(const sweep::Folder& folder, const SweepOptions& option
 }
 
 void print_faults(const std::vector<std::string>& faults) {
-  for (const std::string& fault : faults) fmt::print(stderr, "tumble: {}; computed again\n", fault);
+  for (const std::string& fault : faults) tumble::print(stderr, "tumble: {}; computed again\n", fault);
 }
 
 int report_shard(const SweepOptions& options, const sweep::RunReport& report, const fs::path& folder) {
@@ -112,10 +112,10 @@ int report_shard(const SweepOptions& options, const sweep::RunReport& report, co
   if (options.report.json) {
     const Json json = {
         {"shard", options.shard}, {"shards", options.shards}, {"chunks", report.chunks}, {"folder", folder.string()}};
-    fmt::print("{}", to_text(json));
+    tumble::print("{}", to_text(json));
     return k_done;
   }
-  fmt::print(
+  tumble::print(
       "shard {} of {}: all {} chunks are in {}; `tumble sweep merge` makes the results when all shards are done\n",
       options.shard, options.shards, report.chunks, output::path_text(folder));
   return k_done;
@@ -137,7 +137,7 @@ int run_sweep(const SweepOptions& options, Processes& processes) {
   print_faults(report.faults);
   if (report.is_interrupted) {
     return report_failure(
-        fmt::format("interrupted; the same call goes on with what is in {}", output::path_text(folder.path())),
+        tumble::format("interrupted; the same call goes on with what is in {}", output::path_text(folder.path())),
         k_interrupted);
   }
   if (options.shards > 1) return report_shard(options, report, folder.path());

@@ -6,15 +6,14 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble::cli {
 namespace {
 
 [[noreturn]] void refuse(const std::string& option, const std::string& expected, const std::string& text) {
-  throw std::invalid_argument(fmt::format("{}: must be {}, got '{}'", option, expected, text));
+  throw std::invalid_argument(tumble::format("{}: must be {}, got '{}'", option, expected, text));
 }
 
 }  // namespace

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "random.hpp"
-#include <fmt/format.h>
 
 #include "tumble/batch/column_writer.hpp"
 #include "tumble/batch/parallel.hpp"
 #include "tumble/batch/simulate_batch.hpp"
+#include "tumble/math/format.hpp"
 
 namespace {
 
@@ -61,7 +61,7 @@ void rate(const std::string& set, const std::string& starts, const std::string& 
     batch::simulate_batch<Real>({q0, v0}, {}, settings, {.q = q, .v = v, .measures = measures});
   });
   const double steps = 149.0 * static_cast<double>(count);
-  fmt::print("{} {}\n", steps / seconds, static_cast<double>(2 * kept * sizeof(Real)) / seconds);
+  tumble::print("{} {}\n", steps / seconds, static_cast<double>(2 * kept * sizeof(Real)) / seconds);
 }
 
 void stream(int threads) {
@@ -74,7 +74,7 @@ void stream(int threads) {
       batch::write_past_caches(to.data() + first + chunk * piece, from.data(), piece);
     });
   });
-  fmt::print("{}\n", static_cast<double>(size * sizeof(double)) / seconds);
+  tumble::print("{}\n", static_cast<double>(size * sizeof(double)) / seconds);
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
       throw std::invalid_argument("see the head of bench_batch.cpp");
     }
   } catch (const std::exception& error) {
-    fmt::print(stderr, "tumble_bench_batch: {}\n", error.what());
+    tumble::print(stderr, "tumble_bench_batch: {}\n", error.what());
     return 2;
   }
 }

@@ -14,7 +14,8 @@
 #include "solver.hpp"
 #include "table.hpp"
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace {
 
@@ -39,7 +40,7 @@ void append(std::vector<T>& all, std::vector<T> more) {
 std::vector<Solver> all_solvers(std::string& text) {
   std::vector<Solver> solvers = our_solvers();
   const auto add = [&](const char* project, const char* package, std::vector<Solver> peers) {
-    if (peers.empty()) text += fmt::format("{} was not found ({}) and is left out.\n\n", project, package);
+    if (peers.empty()) text += tumble::format("{} was not found ({}) and is left out.\n\n", project, package);
     append(solvers, std::move(peers));
   };
   add("Siconos", "libsiconos-numerics-dev", siconos_solvers());
@@ -79,7 +80,7 @@ void run(const Settings& settings) {
     text += long_run(settings_long);
     write(out / "bench-lcp.md", text);
   }
-  fmt::print("{}", text);
+  tumble::print("{}", text);
 }
 
 }  // namespace
@@ -110,7 +111,7 @@ int main(int argc, char** argv) {
   try {
     run(settings);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "tumble_bench_lcp: {}\n", error.what());
+    tumble::print(stderr, "tumble_bench_lcp: {}\n", error.what());
     return 2;
   }
   return 0;

@@ -4,9 +4,9 @@
 
 #include "known_problems.hpp"
 #include "problems.hpp"
-#include <fmt/format.h>
 
 #include "tumble/lcp/robust.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::bench {
 namespace {
@@ -37,7 +37,7 @@ std::vector<Case> generated_cases(std::uint64_t seed, double scale) {
   Random random(seed);
   const auto add = [&](const std::string& group, const Family& family, std::size_t num_contacts, int count) {
     for (int i = 0; i < scaled(count, scale); ++i) {
-      const std::string name = fmt::format("{} {} #{}", family.name, 4 * num_contacts, i);
+      const std::string name = tumble::format("{} {} #{}", family.name, 4 * num_contacts, i);
       cases.push_back(as_case(group, name, family.make(random, num_contacts)));
     }
   };
@@ -48,13 +48,13 @@ std::vector<Case> generated_cases(std::uint64_t seed, double scale) {
       for (std::size_t k = 1; k <= 4; ++k) add("wild, n = 4 .. 16", family, k, 500);
       for (std::size_t k = 5; k <= 12; ++k) add("wild, n = 20 .. 48", family, k, 50);
     } else if (family.name == "wedge" || family.name == "painleve") {
-      for (std::size_t k = 1; k <= 4; ++k) add(fmt::format("{}, n = 4 .. 16", family.name), family, k, 50);
+      for (std::size_t k = 1; k <= 4; ++k) add(tumble::format("{}, n = 4 .. 16", family.name), family, k, 50);
     }
   }
   for (const std::size_t n : k_stack_sizes) {
     for (const Family& family : families) {
       if (family.name == "tower" || family.name == "pyramid" || family.name == "pile") {
-        add(fmt::format("stacks, n = {}", n), family, n / 4, n < 100 ? 20 : 5);
+        add(tumble::format("stacks, n = {}", n), family, n / 4, n < 100 ? 20 : 5);
       }
     }
   }
@@ -70,7 +70,8 @@ std::vector<Case> warm_cases(std::uint64_t seed, double scale) {
       const LcpResult result = robust(as_lcp(first));
       if (result.status != LcpStatus::solved) continue;
       const ContactSystem second = problems::next_step(first, result.z, random);
-      cases.push_back(as_case(fmt::format("next step at rest, n = {}", n), fmt::format("tower {} #{}", n, i), second));
+      cases.push_back(
+          as_case(tumble::format("next step at rest, n = {}", n), tumble::format("tower {} #{}", n, i), second));
       cases.back().start_basis = result.basis;
     }
   }

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "local_contacts.hpp"
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 extern "C" {
 #include <fclib.h>
@@ -41,7 +42,7 @@ struct Compressed {
 };
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
-  throw std::runtime_error(fmt::format("{}: {}", path.string(), why));
+  throw std::runtime_error(tumble::format("{}: {}", path.string(), why));
 }
 
 // The entries of any of fclib's three forms, column after column, those of one place added up.
@@ -49,7 +50,7 @@ std::vector<double> dense(const fclib_matrix& matrix, const std::filesystem::pat
   const int n = matrix.n;
   std::vector<double> entries(static_cast<Index>(n) * static_cast<Index>(n));
   const auto add = [&](int i, int j, double value) {
-    if (i < 0 || i >= n || j < 0 || j >= n) refuse(path, fmt::format("W has an entry outside its {} rows", n));
+    if (i < 0 || i >= n || j < 0 || j >= n) refuse(path, tumble::format("W has an entry outside its {} rows", n));
     entries[static_cast<Index>(j) * static_cast<Index>(n) + static_cast<Index>(i)] += value;
   };
   if (matrix.nz >= 0) {
@@ -100,11 +101,11 @@ LcpProblem read_fclib(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) refuse(path, "is no file");
   const std::unique_ptr<fclib_local, Deleter> file(fclib_read_local(path.c_str()));
   if (!file || !file->W) refuse(path, "holds no local problem of fclib");
-  if (file->spacedim != 2) refuse(path, fmt::format("spacedim must be 2, got {}", file->spacedim));
+  if (file->spacedim != 2) refuse(path, tumble::format("spacedim must be 2, got {}", file->spacedim));
   if (file->V || file->R) refuse(path, "equality constraints (V, R) are not supported");
   const fclib_matrix& W = *file->W;
   if (W.m != W.n || W.n < 2 || W.n % 2 != 0) {
-    refuse(path, fmt::format("W must be square with two rows per contact, got {} x {}", W.m, W.n));
+    refuse(path, tumble::format("W must be square with two rows per contact, got {} x {}", W.m, W.n));
   }
   const auto size = static_cast<Index>(W.n);
   const LocalContacts local{dense(W, path), {file->q, file->q + size}, {file->mu, file->mu + size / 2}};

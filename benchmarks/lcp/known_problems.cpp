@@ -5,9 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "tumble/lcp/problem_text.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble::problems {
@@ -29,7 +28,7 @@ std::vector<double> numbers(std::string_view text, const std::string& place) {
   std::vector<double> values;
   for (const std::string& word : words(text)) {
     const std::optional<double> value = parse_fraction(word);
-    if (!value) throw std::invalid_argument(fmt::format("{}: expected numbers like 1e-3 or 1/3", place));
+    if (!value) throw std::invalid_argument(tumble::format("{}: expected numbers like 1e-3 or 1/3", place));
     values.push_back(*value);
   }
   return values;
@@ -37,7 +36,7 @@ std::vector<double> numbers(std::string_view text, const std::string& place) {
 
 // What a line says after "# key:", or nothing if it is another line.
 std::optional<std::string_view> value_of(std::string_view line, std::string_view key) {
-  const std::string start = fmt::format("# {}:", key);
+  const std::string start = tumble::format("# {}:", key);
   if (!line.starts_with(start)) return std::nullopt;
   return line.substr(start.size());
 }
@@ -50,17 +49,17 @@ KnownProblem parse_known_problem(std::string_view text, const std::string& name)
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    const std::string place = fmt::format("{}:{}", name, number);
+    const std::string place = tumble::format("{}:{}", name, number);
     const auto vector = [&](std::string_view value) {
       std::vector<double> values = numbers(value, place);
       if (values.size() == known.problem.size()) return values;
       throw std::invalid_argument(
-          fmt::format("{}: must have {} entries, got {}", place, known.problem.size(), values.size()));
+          tumble::format("{}: must have {} entries, got {}", place, known.problem.size(), values.size()));
     };
     if (const auto value = value_of(line, "solutions")) {
       const std::vector<double> count = numbers(*value, place);
       if (count.size() != 1 || !(count[0] >= 0.0 && count[0] <= 1e6)) {
-        throw std::invalid_argument(fmt::format("{}: expected one whole number from 0 to 1000000", place));
+        throw std::invalid_argument(tumble::format("{}: expected one whole number from 0 to 1000000", place));
       }
       known.num_solutions = static_cast<std::size_t>(count[0]);
     }
@@ -87,7 +86,7 @@ std::vector<KnownProblem> read_known_problems(const std::filesystem::path& file_
   for (const std::filesystem::path& file : files) {
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream) throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
+    if (!stream) throw std::runtime_error(tumble::format("{}: cannot be read", file.string()));
     known.push_back(parse_known_problem(text, file.string()));
     known.back().name = file.stem().string();
   }

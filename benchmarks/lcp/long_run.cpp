@@ -12,11 +12,11 @@
 
 #include "problems.hpp"
 #include "progress.hpp"
-#include <fmt/format.h>
 
 #include "tumble/lcp/problem_text.hpp"
 #include "tumble/lcp/residual.hpp"
 #include "tumble/lcp/solve.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::bench {
 namespace {
@@ -84,11 +84,11 @@ Tally run(const Group& group, int num_threads) {
 
 std::string row(const Group& group, const Tally& tally) {
   std::string failures, rungs;
-  for (const auto& [status, count] : tally.failures) failures += fmt::format(", {} {}", count, to_string(status));
+  for (const auto& [status, count] : tally.failures) failures += tumble::format(", {} {}", count, to_string(status));
   for (const auto& [rung, count] : tally.rungs)
-    rungs += fmt::format("{}{} {}", rungs.empty() ? "" : ", ", count, to_string(rung));
-  return fmt::format("| {} | {} | {}{} | {:.1e} | {} |\n", group.name, group.count, tally.failed.size(), failures,
-                     tally.worst_residual, rungs);
+    rungs += tumble::format("{}{} {}", rungs.empty() ? "" : ", ", count, to_string(rung));
+  return tumble::format("| {} | {} | {}{} | {:.1e} | {} |\n", group.name, group.count, tally.failed.size(), failures,
+                        tally.worst_residual, rungs);
 }
 
 }  // namespace
@@ -101,13 +101,13 @@ std::string long_run(const LongRun& settings) {
   for (const problems::Family& family : problems::families()) {
     if (family.name == "wild") continue;
     for (const std::size_t n : {8u, 16u, 40u, 80u, 160u, 240u, 400u}) {
-      groups.push_back({fmt::format("{}, n = {}", family.name, n), settings.num_stacks, [=](auto i) {
+      groups.push_back({tumble::format("{}, n = {}", family.name, n), settings.num_stacks, [=](auto i) {
                           problems::Random random = problems::random_of(seed + n, i);
                           return family.make(random, n / 4);
                         }});
     }
   }
-  std::string text = fmt::format(
+  std::string text = tumble::format(
       "## The default solver, seed {}\n\nA failure is anything but `solved` with a residual of at most {:.0e}, "
       "computed from the problem.\n\n| problems | count | failures | worst residual | rungs |\n|---|---|---|---|---|\n",
       seed, k_accepted_residual);
@@ -119,14 +119,15 @@ std::string long_run(const LongRun& settings) {
       if (settings.failures.empty() || ++num_written > 100) break;
       std::filesystem::create_directories(settings.failures);
       std::string name;  // the letters and digits of the group, joined by '-'
-      for (const char c : fmt::format("{} {}", group.name, index)) {
+      for (const char c : tumble::format("{} {}", group.name, index)) {
         if (std::isalnum(static_cast<unsigned char>(c)))
           name += c;
         else if (!name.ends_with('-'))
           name += '-';
       }
       std::ofstream file(settings.failures / (name + ".txt"));
-      file << fmt::format("# {}, seed {}, index {}\n", group.name, seed, index) << to_text(as_lcp(group.make(index)));
+      file << tumble::format("# {}, seed {}, index {}\n", group.name, seed, index)
+           << to_text(as_lcp(group.make(index)));
     }
   }
   return text + '\n';

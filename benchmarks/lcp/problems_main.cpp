@@ -9,7 +9,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 #ifdef TUMBLE_HAS_FCLIB
 #include "fclib_file.hpp"
@@ -61,7 +62,7 @@ void write(const std::string& path, const LcpProblem& problem, const std::string
 #endif
   const std::string part = path + ".part";
   std::ofstream file(part, std::ios::binary);
-  file << fmt::format("# {}\n", comment) << to_text(problem);
+  file << tumble::format("# {}\n", comment) << to_text(problem);
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
   std::filesystem::rename(part, path);
 }
@@ -80,8 +81,8 @@ void make(const Settings& settings) {
     if (family.name != settings.family) continue;
     problems::Random random(settings.seed);
     const ContactSystem system = family.make(random, static_cast<std::size_t>(settings.num_contacts));
-    const std::string comment = fmt::format("{}, {} contacts, seed {}; z = (c, b+ and b-, s) by kind", family.name,
-                                            settings.num_contacts, settings.seed);
+    const std::string comment = tumble::format("{}, {} contacts, seed {}; z = (c, b+ and b-, s) by kind", family.name,
+                                               settings.num_contacts, settings.seed);
     write(settings.output, as_lcp(system), comment, settings.may_replace);
   }
 }
@@ -119,7 +120,7 @@ int main(int argc, char** argv) {
       write(settings.output, read(settings.input), "from " + settings.input, settings.may_replace);
     }
   } catch (const std::exception& error) {
-    fmt::print(stderr, "tumble-problems: {}\n", error.what());
+    tumble::print(stderr, "tumble-problems: {}\n", error.what());
     return 2;
   }
   return 0;

@@ -4,17 +4,17 @@
 #include <map>
 
 #include "median.hpp"
-#include <fmt/format.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble::bench {
 namespace {
 
 std::string time_text(double seconds) {
-  if (seconds < 1e-6) return fmt::format("{:.0f} ns", 1e9 * seconds);
-  if (seconds < 1e-3) return fmt::format("{:.3g} us", 1e6 * seconds);
-  return fmt::format("{:.3g} ms", 1e3 * seconds);
+  if (seconds < 1e-6) return tumble::format("{:.0f} ns", 1e9 * seconds);
+  if (seconds < 1e-3) return tumble::format("{:.3g} us", 1e6 * seconds);
+  return tumble::format("{:.3g} ms", 1e3 * seconds);
 }
 
 // Whether the solver came to an end: else `seconds` is no time of a run.
@@ -35,12 +35,13 @@ std::string row(const std::string& solver, const std::vector<Case>& cases, const
     const auto reference = reference_seconds.find(m.case_index);
     if (reference != reference_seconds.end()) ratios.push_back(m.seconds / reference->second);
   }
-  return fmt::format(
-      "| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", solver, measurements.size(), count[Verdict::said_no],
-      count[Verdict::wrong], count[Verdict::crashed] + count[Verdict::timed_out],
-      count[Verdict::good] > 0 ? fmt::format("{:.0e}", worst) : "-", seconds.empty() ? "-" : time_text(median(seconds)),
-      ratios.empty() ? "-" : fmt::format("{:.3g}", median(ratios)),
-      pivots.empty() ? "-" : fmt::format("{:.0f}", median(pivots)));
+  return tumble::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", solver, measurements.size(),
+                        count[Verdict::said_no], count[Verdict::wrong],
+                        count[Verdict::crashed] + count[Verdict::timed_out],
+                        count[Verdict::good] > 0 ? tumble::format("{:.0e}", worst) : "-",
+                        seconds.empty() ? "-" : time_text(median(seconds)),
+                        ratios.empty() ? "-" : tumble::format("{:.3g}", median(ratios)),
+                        pivots.empty() ? "-" : tumble::format("{:.0f}", median(pivots)));
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ std::string tables(const std::vector<Case>& cases, const std::vector<Solver>& so
   }
   std::string text;
   for (const std::string& group : groups) {
-    text += fmt::format(
+    text += tumble::format(
         "## {}\n\n| solver | problems | said no | wrong | crashed or too slow | worst residual of the good | median "
         "time | times {} | median pivots |\n|---|---|---|---|---|---|---|---|---|\n",
         group, k_reference);
@@ -77,9 +78,9 @@ std::string csv(const std::vector<Case>& cases, const std::vector<Solver>& solve
   std::string text = "group,case,n,solver,verdict,residual,seconds,pivots\n";
   for (const Measurement& m : measurements) {
     const Case& c = cases[m.case_index];
-    text += fmt::format("\"{}\",\"{}\",{},\"{}\",{},{},{},{}\n", c.group, c.name, c.problem.size(),
-                        solvers[m.solver_index].name, to_string(m.verdict), to_text(m.residual), to_text(m.seconds),
-                        m.pivots);
+    text += tumble::format("\"{}\",\"{}\",{},\"{}\",{},{},{},{}\n", c.group, c.name, c.problem.size(),
+                           solvers[m.solver_index].name, to_string(m.verdict), to_text(m.residual), to_text(m.seconds),
+                           m.pivots);
   }
   return text;
 }

@@ -14,7 +14,8 @@
 #include "results_table.hpp"
 #include "worlds.hpp"
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace {
 
@@ -32,7 +33,7 @@ struct Settings {
 std::vector<Engine> all_engines(std::string& text) {
   std::vector<Engine> engines;
   const auto add = [&](const char* name, const char* package, const std::vector<Engine>& more) {
-    if (more.empty()) text += fmt::format("{} was not found ({}) and is left out.\n\n", name, package);
+    if (more.empty()) text += tumble::format("{} was not found ({}) and is left out.\n\n", name, package);
     engines.insert(engines.end(), more.begin(), more.end());
   };
   add("Chipmunk", "libchipmunk-dev", chipmunk_engines());
@@ -55,11 +56,11 @@ void run(const Settings& settings) {
   std::filesystem::create_directories(settings.output);
   const std::filesystem::path out = settings.output;
   std::string text =
-      fmt::format("# Scenes\n\nStep size {} s; medians of {} rounds.\n\n", settings.step_size, settings.rounds);
+      tumble::format("# Scenes\n\nStep size {} s; medians of {} rounds.\n\n", settings.step_size, settings.rounds);
   const std::vector<Engine> engines = all_engines(text);
   std::vector<World> worlds = all_worlds();
   if (!settings.only.empty()) std::erase_if(worlds, [&](const World& world) { return world.name != settings.only; });
-  if (worlds.empty()) throw std::runtime_error(fmt::format("--only: no world is named '{}'", settings.only));
+  if (worlds.empty()) throw std::runtime_error(tumble::format("--only: no world is named '{}'", settings.only));
   std::vector<Measurement> measurements;
   {
     Progress progress("worlds", worlds.size());
@@ -69,7 +70,7 @@ void run(const Settings& settings) {
   text += tables(worlds, engines, measurements, 0);
   write(out / "bench-scenes.csv", csv(worlds, engines, measurements, settings.step_size));
   write(out / "bench-scenes.md", text);
-  fmt::print("{}", text);
+  tumble::print("{}", text);
 }
 
 }  // namespace
@@ -96,7 +97,7 @@ int main(int argc, char** argv) {
   try {
     run(settings);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "tumble_bench_scenes: {}\n", error.what());
+    tumble::print(stderr, "tumble_bench_scenes: {}\n", error.what());
     return 2;
   }
   return 0;

@@ -6,7 +6,8 @@
 #include <memory>
 
 #include <box2d/box2d.h>
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::bench {
 namespace {
@@ -91,7 +92,7 @@ Engine box2d(int velocity_iterations, int position_iterations) {
     };
     return Run{advance, [=](int body) { return shared->motion(body); }, [=] { return shared->num_contacts(); }};
   };
-  return {"Box2D 2.4", fmt::format("{}/{} iterations", velocity_iterations, position_iterations),
+  return {"Box2D 2.4", tumble::format("{}/{} iterations", velocity_iterations, position_iterations),
           "computes in float; polygons have a skin of 10 mm, so that they come to rest about 15 mm apart and show no "
           "overlap before the skins are used up",
           build};

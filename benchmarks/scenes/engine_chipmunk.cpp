@@ -7,7 +7,8 @@
 #include <memory>
 
 #include <chipmunk/chipmunk.h>
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::bench {
 namespace {
@@ -103,7 +104,7 @@ Engine chipmunk(int iterations) {
     return Run{[=](int count) { shared->advance(count, step_size); }, [=](int body) { return shared->motion(body); },
                [=] { return shared->num_contacts(); }};
   };
-  return {"Chipmunk 7", fmt::format("{} iterations", iterations),
+  return {"Chipmunk 7", tumble::format("{} iterations", iterations),
           "computes in double and corrects overlap down to 0.5 mm: its slop, set here, as the default is 0.1 m. Debian "
           "compiles it with its assertions, without which it takes some 5 to 20 % less time",
           build};

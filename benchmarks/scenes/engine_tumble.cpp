@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "engine.hpp"
-#include <fmt/format.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/step/time_step.hpp"
 
 namespace tumble::bench {

@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "../lcp/random.hpp"
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::bench {
 namespace {
@@ -70,7 +71,7 @@ World dropped_ball() {
 World squares_side_by_side(int count) {
   constexpr double distance = 4.0;
   World world = bouncing("");
-  world.name = fmt::format("{} squares side by side", count);
+  world.name = tumble::format("{} squares side by side", count);
   world.walls = {ground(0.5 * distance * count + 10.0)};
   problems::Random random(1);
   for (int i = 0; i < count; ++i) {
@@ -83,7 +84,7 @@ World squares_side_by_side(int count) {
 
 World tower(int count) {
   World world;
-  world.name = fmt::format("tower of {} boxes", count);
+  world.name = tumble::format("tower of {} boxes", count);
   world.question = Question::stand;
   world.walls = {ground(10.0)};
   for (int i = 0; i < count; ++i) world.bodies.push_back(square_at({{0.0, k_side * (i + 0.5)}, 0.0}));
@@ -104,7 +105,7 @@ World pile(int count) {
   const double top = first_row + cell * rows;
 
   World world;
-  world.name = fmt::format("pile of {} boxes", count);
+  world.name = tumble::format("pile of {} boxes", count);
   world.question = Question::pile;
   world.friction = 0.5;
   world.duration = 3.0;

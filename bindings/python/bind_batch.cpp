@@ -9,9 +9,9 @@
 
 #include "convert.hpp"
 #include "without_gil.hpp"
-#include <fmt/format.h>
 
 #include "tumble/batch/simulate_batch.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::python {
 namespace {
@@ -64,7 +64,7 @@ struct Parameters {
   void require_lengths(std::size_t count) const {
     for (std::size_t k = 0; k < 7; ++k) {
       if (!values[k].span().empty() || count == 0) continue;
-      throw std::invalid_argument(fmt::format("{}: must have 1 or {} values, got 0", k_names[k], count));
+      throw std::invalid_argument(tumble::format("{}: must have 1 or {} values, got 0", k_names[k], count));
     }
   }
 
@@ -94,7 +94,7 @@ py::tuple simulate_batch(const py::object& q0, const py::object& v0, const py::d
   const auto q_rows = as_rows<Real>(q0, "q0"), v_rows = as_rows<Real>(v0, "v0");
   if (q_rows.shape(0) != v_rows.shape(0)) {
     throw std::invalid_argument(
-        fmt::format("q0, v0: must have as many rows, got {} and {}", q_rows.shape(0), v_rows.shape(0)));
+        tumble::format("q0, v0: must have as many rows, got {} and {}", q_rows.shape(0), v_rows.shape(0)));
   }
   const Parameters parameters(params);
   const py::ssize_t count = q_rows.shape(0);

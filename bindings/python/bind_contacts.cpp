@@ -8,13 +8,13 @@
 #include <string>
 
 #include "convert_lcp.hpp"
-#include <fmt/format.h>
 
 #include "tumble/lcp/contact_motions.hpp"
 #include "tumble/lcp/contact_system.hpp"
 #include "tumble/lcp/enumerate.hpp"
 #include "tumble/lcp/one_contact.hpp"
 #include "tumble/lcp/solve_contacts.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::python {
 namespace {
@@ -31,8 +31,9 @@ Array as_finite(const py::handle& object, const char* name, const std::vector<py
   const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 0;
   for (py::ssize_t i = 0; i < array.size(); ++i) {
     if (std::isfinite(array.data()[i])) continue;
-    const std::string place = columns > 0 ? fmt::format("[{}][{}]", i / columns, i % columns) : fmt::format("[{}]", i);
-    throw std::invalid_argument(fmt::format("{}{}: must be finite, got {}", name, place, array.data()[i]));
+    const std::string place =
+        columns > 0 ? tumble::format("[{}][{}]", i / columns, i % columns) : tumble::format("[{}]", i);
+    throw std::invalid_argument(tumble::format("{}{}: must be finite, got {}", name, place, array.data()[i]));
   }
   return array;
 }
@@ -41,7 +42,7 @@ Array as_finite(const py::handle& object, const char* name, const std::vector<py
 std::vector<Vector3> per_body(const py::handle& object, const char* name, py::ssize_t length = -1) {
   const Array array = as_finite(object, name, {length}, length < 0 ? "(3 b,)" : "");
   if (array.size() % 3 != 0) {
-    throw std::invalid_argument(fmt::format("{}: must have 3 entries for each body, got {}", name, array.size()));
+    throw std::invalid_argument(tumble::format("{}: must have 3 entries for each body, got {}", name, array.size()));
   }
   std::vector<Vector3> values;
   for (const double* x = array.data(); x != array.data() + array.size(); x += 3) values.push_back({x[0], x[1], x[2]});
@@ -52,7 +53,7 @@ std::vector<Vector3> per_body(const py::handle& object, const char* name, py::ss
 std::vector<double> per_contact(const py::handle& object, const char* name, py::ssize_t count) {
   if (num_dimensions(object, name) != 0) return as_vector(as_finite(object, name, {count}));
   const double value = as_number(object, name);
-  if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("{}: must be finite, got {}", name, value));
+  if (!std::isfinite(value)) throw std::invalid_argument(tumble::format("{}: must be finite, got {}", name, value));
   return std::vector<double>(static_cast<Index>(count), value);
 }
 
@@ -60,8 +61,8 @@ std::vector<double> frictions(const py::handle& object, py::ssize_t count) {
   std::vector<double> friction = per_contact(object, "friction", count);
   const auto negative = std::find_if(friction.begin(), friction.end(), [](double mu) { return mu < 0.0; });
   if (negative == friction.end()) return friction;
-  throw std::invalid_argument(
-      fmt::format("friction: must be finite and >= 0, got {} at contact {}", *negative, negative - friction.begin()));
+  throw std::invalid_argument(tumble::format("friction: must be finite and >= 0, got {} at contact {}", *negative,
+                                             negative - friction.begin()));
 }
 
 Vector3 entries_of(const Array& J, py::ssize_t contact, int body) {
@@ -77,12 +78,12 @@ std::array<int, 2> bodies_of(const Array& J_n, const Array& J_t, py::ssize_t con
     const bool is_touched = J_n.at(contact, j) != 0.0 || J_t.at(contact, j) != 0.0;
     if (!is_touched || body == bodies[1]) continue;
     if (bodies[0] >= 0) {
-      throw std::invalid_argument(fmt::format("J_n[{0}], J_t[{0}]: must touch at most two bodies, got {1}, {2}, {3}",
-                                              contact, bodies[0], bodies[1], body));
+      throw std::invalid_argument(tumble::format("J_n[{0}], J_t[{0}]: must touch at most two bodies, got {1}, {2}, {3}",
+                                                 contact, bodies[0], bodies[1], body));
     }
     bodies = {bodies[1], body};
   }
-  if (bodies[1] < 0) throw std::invalid_argument(fmt::format("J_n[{0}], J_t[{0}]: must touch a body", contact));
+  if (bodies[1] < 0) throw std::invalid_argument(tumble::format("J_n[{0}], J_t[{0}]: must touch a body", contact));
   return bodies;
 }
 
@@ -92,7 +93,7 @@ ContactSystem as_system(const py::handle& normal_rows, const py::handle& tangent
   system.inverse_mass = per_body(inverse_mass, "inverse_mass");
   const auto columns = static_cast<py::ssize_t>(3 * system.inverse_mass.size());
   system.velocity = per_body(velocity, "velocity", columns);
-  const Array J_n = as_finite(normal_rows, "J_n", {-1, columns}, fmt::format("(k, 3 b) = (k, {})", columns));
+  const Array J_n = as_finite(normal_rows, "J_n", {-1, columns}, tumble::format("(k, 3 b) = (k, {})", columns));
   const py::ssize_t count = J_n.shape(0);
   if (count == 0) throw std::invalid_argument("J_n: must have a row for each contact, at least 1, got 0");
   const Array J_t = as_finite(tangent_rows, "J_t", {count, columns});
@@ -137,8 +138,8 @@ py::dict solve_contacts(const py::handle& J_n, const py::handle& J_t, const py::
   const bool wants_motions = as_flag(motions_wanted, "motions");
   const ContactSystem system = as_system(J_n, J_t, inverse_mass, velocity, friction, offset);
   if (wants_motions && system.contacts.size() > k_max_contacts_of_motions) {
-    throw std::invalid_argument(fmt::format("motions: must be False for more than {} contacts, got {}",
-                                            k_max_contacts_of_motions, system.contacts.size()));
+    throw std::invalid_argument(tumble::format("motions: must be False for more than {} contacts, got {}",
+                                               k_max_contacts_of_motions, system.contacts.size()));
   }
   const LcpSettings chosen = as_settings(method, settings);
   ContactSolution solution;

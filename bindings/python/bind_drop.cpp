@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "convert.hpp"
-#include <fmt/format.h>
 
 #include "tumble/drop/drop.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::python {
 namespace {
@@ -23,8 +23,8 @@ int as_count(const py::object& object, const char* field) {
   const bool is_count = !PyErr_Occurred() && value >= 0 && value <= std::numeric_limits<int>::max();
   PyErr_Clear();
   if (!is_count) {
-    throw std::invalid_argument(
-        fmt::format("{}: must be a whole number in [2, {}], got {}", field, drop::k_max_columns, short_repr(object)));
+    throw std::invalid_argument(tumble::format("{}: must be a whole number in [2, {}], got {}", field,
+                                               drop::k_max_columns, short_repr(object)));
   }
   return static_cast<int>(value);
 }
@@ -47,7 +47,7 @@ py::dict as_dict(const Parameters& p) {
 const Parameters& as_parameters(const py::handle& object) {
   if (py::isinstance<Parameters>(object)) return object.cast<const Parameters&>();
   const std::string type = py::str(py::type::handle_of(object).attr("__name__"));
-  throw py::type_error(fmt::format("params: must be a tumble.drop.Parameters, got {}", type));
+  throw py::type_error(tumble::format("params: must be a tumble.drop.Parameters, got {}", type));
 }
 
 drop::Jacobian as_jacobian(const py::handle& object) {
@@ -93,8 +93,8 @@ py::tuple step(const py::handle& q, const py::handle& v, const py::handle& param
 void require_complete(const drop::Trajectory& trajectory, const Parameters& parameters) {
   if (trajectory.status == LcpStatus::solved) return;
   throw drop::NoSolution(
-      fmt::format("step {} of {} left the range of double arithmetic: LCP status {}; the columns before it are fine",
-                  trajectory.columns, parameters.columns - 1, to_string(trajectory.status)),
+      tumble::format("step {} of {} left the range of double arithmetic: LCP status {}; the columns before it are fine",
+                     trajectory.columns, parameters.columns - 1, to_string(trajectory.status)),
       trajectory.status);
 }
 
@@ -230,8 +230,8 @@ void bind_drop(py::module_& module) {
       .def("__hash__", [](const Parameters& p) { return py::hash(py::tuple(as_dict(p).attr("values")())); })
       .def("__repr__",
            [](const Parameters& p) {
-             return fmt::format("Parameters(l={}, m={}, mu={}, eps={}, dt={}, delta={}, g={}, columns={})", p.l, p.m,
-                                p.mu, p.eps, p.dt, p.delta, p.g, p.columns);
+             return tumble::format("Parameters(l={}, m={}, mu={}, eps={}, dt={}, delta={}, g={}, columns={})", p.l, p.m,
+                                   p.mu, p.eps, p.dt, p.delta, p.g, p.columns);
            })
       .def(py::pickle([](const Parameters& p) { return as_dict(p); },
                       [](const py::dict& d) { return py::type::of<Parameters>()(**d).cast<Parameters>(); }));

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "convert_lcp.hpp"
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "tumble/lcp/enumerate.hpp"
@@ -17,6 +16,7 @@
 #include "tumble/lcp/methods.hpp"
 #include "tumble/lcp/problem_text.hpp"
 #include "tumble/lcp/residual.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::python {
 
@@ -205,7 +205,7 @@ py::dict solve_batch(const py::handle& M, const py::handle& q, const py::handle&
   require_usable(chosen, n, sizes, starts, start_name);
   const double wanted = as_number(threads, "threads");
   if (!(wanted >= 0.0 && wanted <= 1024.0 && wanted == std::trunc(wanted))) {
-    throw std::invalid_argument(fmt::format("threads: must be a whole number in [0, 1024], got {}", wanted));
+    throw std::invalid_argument(tumble::format("threads: must be a whole number in [0, 1024], got {}", wanted));
   }
   const auto num_threads =
       wanted > 0.0 ? static_cast<std::size_t>(wanted) : std::max<std::size_t>(1, std::thread::hardware_concurrency());
@@ -254,7 +254,7 @@ py::dict exact(std::vector<std::string> M, std::vector<std::string> q, const py:
   std::vector<std::uint8_t> start;
   if (!basis.is_none()) {
     for (const double x : as_vector(as_array(without_bools(basis, "basis"), "basis", {-1}))) {
-      if (x != 0.0 && x != 1.0) throw std::invalid_argument(fmt::format("basis: must be zeros and ones, got {}", x));
+      if (x != 0.0 && x != 1.0) throw std::invalid_argument(tumble::format("basis: must be zeros and ones, got {}", x));
       start.push_back(x != 0.0);
     }
   }
@@ -330,8 +330,8 @@ LcpProblem as_problem(const py::handle& M, const py::handle& q, const py::handle
   const Array matrix = as_array(M, "M", {-1, -1});
   const py::ssize_t n = vector.size();
   if (matrix.shape(0) != n || matrix.shape(1) != n) {
-    throw std::invalid_argument(fmt::format("M: must have shape ({0}, {0}) for q of length {0}, got ({1}, {2})", n,
-                                            matrix.shape(0), matrix.shape(1)));
+    throw std::invalid_argument(tumble::format("M: must have shape ({0}, {0}) for q of length {0}, got ({1}, {2})", n,
+                                               matrix.shape(0), matrix.shape(1)));
   }
   LcpProblem problem{as_vector(matrix), as_vector(vector), {}};
   if (!row_sizes.is_none()) problem.row_sizes = as_vector(as_array(row_sizes, "row_sizes", {n}));
@@ -348,7 +348,7 @@ void set_setting(LcpSettings& settings, const std::string& name, const SettingVa
 
 LcpSettings as_settings(const py::handle& method, const py::dict& settings) {
   if (!py::isinstance<py::str>(method)) {
-    throw std::invalid_argument(fmt::format("method: must be a name, got {}", short_repr(method)));
+    throw std::invalid_argument(tumble::format("method: must be a name, got {}", short_repr(method)));
   }
   LcpSettings chosen = lcp_method(py::cast<std::string>(method)).defaults;
   for (const auto& [name, value] : settings) {

@@ -11,9 +11,9 @@
 
 #include "convert_trajectory.hpp"
 #include "without_gil.hpp"
-#include <fmt/format.h>
 
 #include "tumble/batch/rollout.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::python {
 namespace {
@@ -31,7 +31,7 @@ Quantity as_quantity(const std::string& name) {
   for (const auto& [word, quantity] : names) {
     if (name == word) return quantity;
   }
-  throw std::invalid_argument(fmt::format("quantity: unknown, got {}", name));
+  throw std::invalid_argument(tumble::format("quantity: unknown, got {}", name));
 }
 
 py::dtype measures_dtype() {
@@ -72,7 +72,7 @@ class Inputs {
     const auto found = std::find(bodies_.begin(), bodies_.end(), body);
     if (found == bodies_.end()) {
       throw std::invalid_argument(
-          fmt::format("{}: must be of a dynamic body, or a kinematic one without motion", name));
+          tumble::format("{}: must be of a dynamic body, or a kinematic one without motion", name));
     }
     const bool is_common = num_dimensions(object, name.c_str()) == 1;
     const Array rows = is_common ? as_array(object, name.c_str(), {3})
@@ -85,7 +85,7 @@ class Inputs {
     const auto count = static_cast<py::ssize_t>(bodies_.size());
     const py::ssize_t dimensions = num_dimensions(object, name.c_str());
     const std::string words = count == 1 ? "(N, 3), or (N, 1, 3), for the one body that moves"
-                                         : fmt::format("(N, {0}, 3), or ({0}, 3) for all", count);
+                                         : tumble::format("(N, {0}, 3), or ({0}, 3) for all", count);
     if (count == 1 && dimensions == 1) return set_start_of(is_pose, bodies_[0], name, object);
     const bool is_flat = dimensions == 2;
     const Array rows = is_flat ? as_array(object, name.c_str(), {count == 1 ? -1 : count, 3}, words)
@@ -108,7 +108,7 @@ class Inputs {
       });
       if (found == scene_.pairs.end()) {
         throw std::invalid_argument(
-            fmt::format("{}: must be of two materials that Scene.add_pair has made a pair", name));
+            tumble::format("{}: must be of two materials that Scene.add_pair has made a pair", name));
       }
       index = static_cast<int>(scene_.materials.size()) + static_cast<int>(found - scene_.pairs.begin());
     }
@@ -160,7 +160,7 @@ class Inputs {
     if (count == 1) return;
     if (has_count_ && count != count_) {
       throw std::invalid_argument(
-          fmt::format("{}: must have {} entries as {}, or one, got {}", name, count_, counted_by_, count));
+          tumble::format("{}: must have {} entries as {}, or one, got {}", name, count_, counted_by_, count));
     }
     count_ = count;
     counted_by_ = name;
@@ -259,8 +259,8 @@ batch::RolloutSettings as_settings(const py::dict& fields) {
   if (!field("region").is_none()) {
     const Array region = as_array(field("region"), "region", {2});
     if (!(region.data()[0] <= region.data()[1])) {
-      throw std::invalid_argument(
-          fmt::format("region: must be (x_min, x_max) [m] with x_min <= x_max, got {}", short_repr(field("region"))));
+      throw std::invalid_argument(tumble::format("region: must be (x_min, x_max) [m] with x_min <= x_max, got {}",
+                                                 short_repr(field("region"))));
     }
     settings.measures.x_min = region.data()[0];
     settings.measures.x_max = region.data()[1];

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/check.hpp"
 #include "tumble/scene/scene_toml.hpp"
 #include "tumble/scene/suggestion.hpp"
@@ -36,13 +35,13 @@ Names names_of(const Entries& entries) {
   std::vector<std::string_view> words;
   for (const auto& [word, index] : names) words.push_back(word);
   throw std::invalid_argument(
-      fmt::format("{}: must be the name of a {}, got {}{}", field, what, shown(name), suggestion(name, words)));
+      tumble::format("{}: must be the name of a {}, got {}{}", field, what, shown(name), suggestion(name, words)));
 }
 
 int add_material_to(SceneHandle& handle, Material material) {
   const std::size_t index = handle.scene.materials.size();
   if (index == k_max_materials) {
-    throw std::invalid_argument(fmt::format("materials: a scene has at most {}", k_max_materials));
+    throw std::invalid_argument(tumble::format("materials: a scene has at most {}", k_max_materials));
   }
   handle.materials[material.name] = static_cast<int>(index);
   handle.scene.materials.push_back(std::move(material));
@@ -67,8 +66,8 @@ void add_material(SceneHandle& handle, const py::handle& name_object, const py::
   if (handle.materials.count(name) > 0) {
     const bool is_default = name == k_default_material;
     throw std::invalid_argument(
-        fmt::format("name: must differ from the materials before, got {}{}", shown(name),
-                    is_default ? "; bodies without a material have it already: add it before them" : ""));
+        tumble::format("name: must differ from the materials before, got {}{}", shown(name),
+                       is_default ? "; bodies without a material have it already: add it before them" : ""));
   }
   add_material_to(handle, {name, as_law({}, friction, static_friction, restitution)});
 }
@@ -79,7 +78,7 @@ void add_pair(SceneHandle& handle, const py::handle& a, const py::handle& b, con
   const Scene& scene = handle.scene;
   if (pair.a == pair.b) throw std::invalid_argument("b: must be another material than a");
   if (scene.pairs.size() == k_max_pairs) {
-    throw std::invalid_argument(fmt::format("pairs: a scene has at most {}", k_max_pairs));
+    throw std::invalid_argument(tumble::format("pairs: a scene has at most {}", k_max_pairs));
   }
   const auto is_same = [&](const MaterialPair& other) {
     return std::minmax(pair.a, pair.b) == std::minmax(other.a, other.b);
@@ -134,8 +133,8 @@ void read_mass(const BodyFields& fields, Body& body) {
   }
   if (!density.is_none()) {
     if (!inertia.is_none() || !centre.is_none()) {
-      throw std::invalid_argument(fmt::format("{}: must not stand beside density, which gives it",
-                                              inertia.is_none() ? "centre_of_mass" : "moment_of_inertia"));
+      throw std::invalid_argument(tumble::format("{}: must not stand beside density, which gives it",
+                                                 inertia.is_none() ? "centre_of_mass" : "moment_of_inertia"));
     }
     set_density(body, as_number_in(k_density_range, density, "density"));
     return;
@@ -169,7 +168,7 @@ void read_motion(const BodyFields& fields, Body& body) {
   Pose last = body.pose;
   for (const py::handle object : motion) {
     const auto knot = py::reinterpret_borrow<py::tuple>(object);
-    const std::string place = fmt::format("motion[{}].", body.motion.size());
+    const std::string place = tumble::format("motion[{}].", body.motion.size());
     if (!knot[1].is_none()) last.position = as_vector2(k_coordinate_range, knot[1], place + "position");
     if (!knot[2].is_none()) last.angle = as_angle(knot[2], place + "angle");
     body.motion.push_back({as_number(knot[0], (place + "time").c_str()), last});
@@ -187,7 +186,7 @@ void read_wrenches(const BodyFields& fields, Body& body) {
   if (wrenches.is_none()) return;
   for (const py::handle object : wrenches) {
     const auto wrench = py::reinterpret_borrow<py::tuple>(object);
-    const std::string place = fmt::format("wrenches[{}].", body.wrenches.size());
+    const std::string place = tumble::format("wrenches[{}].", body.wrenches.size());
     body.wrenches.push_back({as_number(wrench[0], (place + "time").c_str()),
                              as_vector2(k_force_range, wrench[1], place + "force"),
                              as_number(wrench[2], (place + "torque").c_str())});
@@ -208,7 +207,7 @@ Body as_body(SceneHandle& handle, const std::string& kind, const py::list& parts
   if (!name.is_none()) body.name = as_text(name, "name");
   check_name("name", body.name, k_max_name_bytes);
   if (!body.name.empty() && handle.bodies.count(body.name) > 0) {
-    throw std::invalid_argument(fmt::format("name: must differ from the bodies before, got {}", shown(body.name)));
+    throw std::invalid_argument(tumble::format("name: must differ from the bodies before, got {}", shown(body.name)));
   }
   body.kind = as_kind(kind);
   const py::object position = fields.find("position"), angle = fields.find("angle");
@@ -216,7 +215,7 @@ Body as_body(SceneHandle& handle, const std::string& kind, const py::list& parts
   if (!angle.is_none()) body.pose.angle = as_angle(angle, "angle");
   require_count("parts", parts.size(), 1, k_max_parts);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string place = parts.size() == 1 ? "" : fmt::format("parts[{}].", i);
+    const std::string place = parts.size() == 1 ? "" : tumble::format("parts[{}].", i);
     body.parts.push_back(as_part(handle, parts[i], fields, place));
   }
   if (body.kind == BodyKind::dynamic) read_mass(fields, body);
@@ -238,7 +237,7 @@ int add_body(SceneHandle& handle, const std::string& kind, const py::list& parts
   const std::size_t num_materials = handle.scene.materials.size();
   try {
     if (handle.scene.bodies.size() == k_max_bodies) {
-      throw std::invalid_argument(fmt::format("bodies: a scene has at most {}", k_max_bodies));
+      throw std::invalid_argument(tumble::format("bodies: a scene has at most {}", k_max_bodies));
     }
     Body body = as_body(handle, kind, parts, fields);
     check_body(body, handle.scene.materials.size());
@@ -321,13 +320,13 @@ int SceneHandle::find_body(const py::handle& object) const {
     return found->second;
   }
   if (!PyIndex_Check(object.ptr()) || PyBool_Check(object.ptr())) {
-    throw py::type_error(fmt::format("body: must be a name or an index, got {}", short_repr(object)));
+    throw py::type_error(tumble::format("body: must be a name or an index, got {}", short_repr(object)));
   }
   const long index = PyLong_AsLong(object.ptr());
   const bool is_too_large = PyErr_Occurred() != nullptr;
   PyErr_Clear();
   if (is_too_large || index < -count || index >= count) {
-    throw py::index_error(fmt::format("body: must be in [{}, {}], got {}", -count, count - 1, short_repr(object)));
+    throw py::index_error(tumble::format("body: must be in [{}, {}], got {}", -count, count - 1, short_repr(object)));
   }
   return static_cast<int>(index < 0 ? index + count : index);
 }

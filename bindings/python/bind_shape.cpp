@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "convert_scene.hpp"
-#include <fmt/format.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/scene/check.hpp"
 #include "tumble/scene/shape.hpp"
@@ -45,7 +45,7 @@ py::array_t<double> to_numpy(const std::vector<Vector2>& points) {
 
 int as_corners(const py::handle& object) {
   if (!PyIndex_Check(object.ptr()) || PyBool_Check(object.ptr())) {
-    throw std::invalid_argument(fmt::format("corners: must be a whole number, got {}", short_repr(object)));
+    throw std::invalid_argument(tumble::format("corners: must be a whole number, got {}", short_repr(object)));
   }
   int overflow = 0;
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
@@ -96,19 +96,19 @@ ShapeHandle from_dict(const py::dict& fields) {
 std::string shape_repr(const ShapeHandle& handle) {
   if (const auto* polygon = std::get_if<RoundedPolygon>(&handle.shape)) {
     const std::size_t corners = polygon->vertices.size();
-    if (corners == 1) return fmt::format("<Shape: disc of radius {} m>", polygon->rounding);
-    const std::string what = corners == 2 ? "segment" : fmt::format("polygon of {} corners", corners);
-    return polygon->rounding == 0.0 ? fmt::format("<Shape: {}>", what)
-                                    : fmt::format("<Shape: {}, rounding {} m>", what, polygon->rounding);
+    if (corners == 1) return tumble::format("<Shape: disc of radius {} m>", polygon->rounding);
+    const std::string what = corners == 2 ? "segment" : tumble::format("polygon of {} corners", corners);
+    return polygon->rounding == 0.0 ? tumble::format("<Shape: {}>", what)
+                                    : tumble::format("<Shape: {}, rounding {} m>", what, polygon->rounding);
   }
   if (const auto* ellipse = std::get_if<Ellipse>(&handle.shape)) {
-    return fmt::format("<Shape: ellipse of semi-axes {} m and {} m>", ellipse->semi_axis_x, ellipse->semi_axis_y);
+    return tumble::format("<Shape: ellipse of semi-axes {} m and {} m>", ellipse->semi_axis_x, ellipse->semi_axis_y);
   }
   if (const auto* half_plane = std::get_if<HalfPlane>(&handle.shape)) {
-    return fmt::format("<Shape: half-plane of normal ({}, {}), offset {} m>", half_plane->normal.x,
-                       half_plane->normal.y, half_plane->offset);
+    return tumble::format("<Shape: half-plane of normal ({}, {}), offset {} m>", half_plane->normal.x,
+                          half_plane->normal.y, half_plane->offset);
   }
-  return fmt::format("<Shape: terrain of {} points>", std::get<Terrain>(handle.shape).points.size());
+  return tumble::format("<Shape: terrain of {} points>", std::get<Terrain>(handle.shape).points.size());
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ double as_angle(const py::handle& object, const std::string& field) {
     const std::optional<double> value = parse_degrees(as_text(object, field.c_str()));
     if (!value) {
       throw std::invalid_argument(
-          fmt::format("{}: must be a number in rad or text like \"30 deg\", got {}", field, short_repr(object)));
+          tumble::format("{}: must be a number in rad or text like \"30 deg\", got {}", field, short_repr(object)));
     }
     require_in(k_angle_range, field, *value);
     return *value;
@@ -146,7 +146,8 @@ Pose as_pose(const py::handle& position, const py::handle& angle, const std::str
 
 const Shape& as_shape(const py::handle& object, const std::string& field) {
   if (py::isinstance<ShapeHandle>(object)) return object.cast<const ShapeHandle&>().shape;
-  throw py::type_error(fmt::format("{}: must be a shape like tumble.square(0.2), got {}", field, short_repr(object)));
+  throw py::type_error(
+      tumble::format("{}: must be a shape like tumble.square(0.2), got {}", field, short_repr(object)));
 }
 
 py::object to_python(const Shape& shape) { return py::cast(ShapeHandle{shape}); }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "convert_trajectory.hpp"
-#include <fmt/format.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble::python {
@@ -57,8 +57,8 @@ class Stepper {
   void restore(const Snapshot& snapshot) {
     require_idle();
     if (snapshot.state.bodies.size() != now_.bodies.size()) {
-      throw std::invalid_argument(fmt::format("state: must be of a scene of {} bodies, got {}", now_.bodies.size(),
-                                              snapshot.state.bodies.size()));
+      throw std::invalid_argument(tumble::format("state: must be of a scene of {} bodies, got {}", now_.bodies.size(),
+                                                 snapshot.state.bodies.size()));
     }
     for (const auto& [body, orders] : snapshot_.orders) now_.bodies[as_index(body)] = start_of(body);
     snapshot_ = snapshot;
@@ -130,8 +130,8 @@ class Stepper {
 
   [[noreturn]] void refuse_kind(const char* field, const char* why, int body) const {
     const std::string& name = start_of(body).name;
-    throw std::invalid_argument(fmt::format("{}: {}, got body {}", field, why,
-                                            name.empty() ? std::to_string(body) : fmt::format("'{}'", name)));
+    throw std::invalid_argument(tumble::format("{}: {}, got body {}", field, why,
+                                               name.empty() ? std::to_string(body) : tumble::format("'{}'", name)));
   }
 
   void require_idle() const {

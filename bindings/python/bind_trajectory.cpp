@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "convert_trajectory.hpp"
-#include <fmt/format.h>
 
 #include "tumble/lcp/one_contact.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/scene/suggestion.hpp"
 #include "tumble/trajectory/simulate.hpp"
 
@@ -172,7 +172,7 @@ StepSettings as_step_settings(const py::handle& solver, const py::handle& num_sw
   const std::string word = as_text(solver, "solver");
   if (word != words[0] && word != words[1]) {
     throw std::invalid_argument(
-        fmt::format("solver: must be the name of a solver, got {}{}", shown(word), suggestion(word, words)));
+        tumble::format("solver: must be the name of a solver, got {}{}", shown(word), suggestion(word, words)));
   }
   return {word == words[0] ? ContactSolver::exact : ContactSolver::fast, as_positive_count(num_sweeps, "num_sweeps")};
 }
@@ -185,7 +185,7 @@ int as_whole_number(const py::handle& object, const char* field, int low, int hi
   PyErr_Clear();
   if (is_long && value >= low && value <= high) return static_cast<int>(value);
   throw std::invalid_argument(
-      fmt::format("{}: must be a whole number in [{}, {}], got {}", field, low, high, short_repr(object)));
+      tumble::format("{}: must be a whole number in [{}, {}], got {}", field, low, high, short_repr(object)));
 }
 
 int as_positive_count(const py::handle& object, const char* field) {

@@ -4,7 +4,8 @@
 #include <stdexcept>
 
 #include "convert.hpp"
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::python {
 namespace {
@@ -37,7 +38,7 @@ void refuse_mask(const py::handle& object, const char* name, int max_depth = 3) 
   if (!py::isinstance(object, masked_array)) return;
   const auto masked = py::module_::import("numpy.ma").attr("count_masked")(object).cast<py::ssize_t>();
   if (masked == 0) return;
-  throw std::invalid_argument(fmt::format("{}: must have no masked entry, got {}", name, masked));
+  throw std::invalid_argument(tumble::format("{}: must have no masked entry, got {}", name, masked));
 }
 
 std::string dtype_text(const py::array& array) { return "dtype " + std::string(py::str(array.dtype())); }
@@ -61,18 +62,18 @@ Array as_array(const py::handle& object, const char* name, const std::vector<py:
     const auto any = py::array::ensure(object);
     if (!any) {
       PyErr_Clear();
-      throw std::invalid_argument(fmt::format("{}: must be an array of numbers", name));
+      throw std::invalid_argument(tumble::format("{}: must be an array of numbers", name));
     }
     const char kind = any.dtype().kind();
     const bool is_empty_list = any.size() == 0;
     if (kind != 'f' && kind != 'i' && kind != 'u' && !is_empty_list) {
-      throw std::invalid_argument(fmt::format("{}: must be an array of real numbers, got {}", name,
-                                              kind == 'O' ? contents_text(object) : dtype_text(any)));
+      throw std::invalid_argument(tumble::format("{}: must be an array of real numbers, got {}", name,
+                                                 kind == 'O' ? contents_text(object) : dtype_text(any)));
     }
     array = Array::ensure(any);
     if (!array) {
       PyErr_Clear();
-      throw std::invalid_argument(fmt::format("{}: must be an array of numbers", name));
+      throw std::invalid_argument(tumble::format("{}: must be an array of numbers", name));
     }
   }
   const bool has_shape = static_cast<std::size_t>(array.ndim()) == shape.size() &&
@@ -80,9 +81,9 @@ Array as_array(const py::handle& object, const char* name, const std::vector<py:
                                     [](py::ssize_t wanted, py::ssize_t got) { return wanted < 0 || wanted == got; });
   if (!has_shape) {
     throw std::invalid_argument(
-        fmt::format("{}: must have shape {}, got {}", name,
-                    shape_in_words.empty() ? shape_text(shape.data(), shape.size()) : shape_in_words,
-                    shape_text(array.shape(), static_cast<std::size_t>(array.ndim()))));
+        tumble::format("{}: must have shape {}, got {}", name,
+                       shape_in_words.empty() ? shape_text(shape.data(), shape.size()) : shape_in_words,
+                       shape_text(array.shape(), static_cast<std::size_t>(array.ndim()))));
   }
   return array;
 }
@@ -111,7 +112,7 @@ double as_number(const py::handle& object, const char* field) {
   const double value = PyFloat_AsDouble(object.ptr());
   if (value == -1.0 && PyErr_Occurred()) {
     PyErr_Clear();
-    throw std::invalid_argument(fmt::format("{}: must be a number, got {}", field, short_repr(object)));
+    throw std::invalid_argument(tumble::format("{}: must be a number, got {}", field, short_repr(object)));
   }
   return value;
 }
@@ -122,16 +123,16 @@ std::string as_text(const py::handle& object, const char* field) {
     const char* text = PyUnicode_AsUTF8AndSize(object.ptr(), &size);
     if (text != nullptr) return {text, static_cast<std::size_t>(size)};
     PyErr_Clear();  // half of a surrogate pair
-    throw std::invalid_argument(fmt::format("{}: must be valid UTF-8, got {}", field, short_repr(object)));
+    throw std::invalid_argument(tumble::format("{}: must be valid UTF-8, got {}", field, short_repr(object)));
   }
-  throw py::type_error(fmt::format("{}: must be text, got {}", field, short_repr(object)));
+  throw py::type_error(tumble::format("{}: must be text, got {}", field, short_repr(object)));
 }
 
 bool as_flag(const py::handle& object, const char* field) {
   try {
     return py::cast<bool>(object);
   } catch (const py::cast_error&) {
-    throw py::type_error(fmt::format("{}: must be True or False, got {}", field, short_repr(object)));
+    throw py::type_error(tumble::format("{}: must be True or False, got {}", field, short_repr(object)));
   }
 }
 

@@ -9,8 +9,8 @@
 
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
-#include <fmt/format.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/math/pose.hpp"
 #include "tumble/math/vector.hpp"
 #include "tumble/output/field.hpp"
@@ -66,17 +66,17 @@ inline val to_object(const std::vector<output::Field>& fields) {
 inline double number_at(const val& object, const std::string& name) {
   const val value = object[name];
   if (value.isNumber()) return value.as<double>();
-  throw std::invalid_argument(fmt::format("{}: must be a number", name));
+  throw std::invalid_argument(tumble::format("{}: must be a number", name));
 }
 
 inline Vector3 triple_at(const val& object, const std::string& name) {
   const val array = object[name];
   if (!array.isArray() || array["length"].as<int>() != 3)
-    throw std::invalid_argument(fmt::format("{}: must be three numbers", name));
+    throw std::invalid_argument(tumble::format("{}: must be three numbers", name));
   Vector3 result{};
   for (std::size_t i = 0; i < 3; ++i) {
     const val value = array[i];
-    if (!value.isNumber()) throw std::invalid_argument(fmt::format("{}: must be three numbers", name));
+    if (!value.isNumber()) throw std::invalid_argument(tumble::format("{}: must be three numbers", name));
     result[i] = value.as<double>();
   }
   return result;

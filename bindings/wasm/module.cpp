@@ -4,6 +4,7 @@
 #include "run.hpp"
 #include "scene_edit.hpp"
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/csv.hpp"
 #include "tumble/output/drop_trajectory.hpp"
 #include "tumble/output/trajectory_csv.hpp"
@@ -43,7 +44,7 @@ DropStart drop_start(const val& spec) {
   const double columns = number_at(spec, "columns");
   if (!(columns >= 2.0 && columns <= drop::k_max_columns && columns == std::floor(columns)))
     throw std::invalid_argument(
-        fmt::format("columns: must be a whole number in [2, {}], got {}", drop::k_max_columns, columns));
+        tumble::format("columns: must be a whole number in [2, {}], got {}", drop::k_max_columns, columns));
   p.columns = static_cast<int>(columns);
   return start;
 }

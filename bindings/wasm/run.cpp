@@ -11,6 +11,7 @@
 #include "tumble/explain/step_problem.hpp"
 #include "tumble/lcp/lemke.hpp"
 #include "tumble/lcp/residual.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/output/csv.hpp"
 #include "tumble/output/drop_trajectory.hpp"
 #include "tumble/output/record_fields.hpp"
@@ -197,7 +198,7 @@ std::string Run::csv(const std::string& table) const {
   if (table == "contacts" && !record_)
     return output::contacts_csv_header(trajectory_) +
            output::contacts_csv_rows(trajectory_, 0, trajectory_.contacts.size());
-  throw std::invalid_argument(fmt::format("table: this run has no '{}'", table));
+  throw std::invalid_argument(tumble::format("table: this run has no '{}'", table));
 }
 
 double SceneRun::advance(int num_steps) {

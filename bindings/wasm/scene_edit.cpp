@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tumble/math/format.hpp"
+
 namespace tumble::wasm {
 namespace {
 
@@ -59,7 +61,7 @@ template <class Item>
 Item& item_at(std::vector<Item>& items, const val& edit, const char* what) {
   const double index = number_at(edit, "index");
   if (index >= 0.0 && index < static_cast<double>(items.size())) return items[static_cast<Index>(index)];
-  throw std::invalid_argument(fmt::format("{}: there is none with index {}", what, index));
+  throw std::invalid_argument(tumble::format("{}: there is none with index {}", what, index));
 }
 
 bool has(const val& object, const char* name) { return !object[name].isUndefined(); }

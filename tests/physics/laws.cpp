@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble::physics {
 namespace {
@@ -15,7 +15,7 @@ constexpr double k_rounded_residual = 1e-12;  // [-] what a step may be off beyo
 constexpr double k_force_round_off = 1e-10;   // [-] of impulses that are found by the velocities they cause
 
 std::string describe(const ContactRecord& c) {
-  return fmt::format(
+  return tumble::format(
       "contact {}/{} (gap {:.3g}, bend {:.3g}, mode {}, impulse ({:.6g}, {:.6g}), u ({:.6g}, {:.6g}) -> ({:.6g}, "
       "{:.6g}))",
       c.contact.body_a, c.contact.body_b, c.contact.gap, c.bend, to_string(c.mode), c.normal_impulse,
@@ -83,8 +83,8 @@ void check_momentum(const Scene& scene, double h, const State& before, const Sta
     if (scene.bodies[i].kind != BodyKind::dynamic) continue;
     for (std::size_t j = 0; j < 3; ++j) {
       if (std::abs(sums[i][j].value) <= k_round_off * sums[i][j].size) continue;
-      broken.push_back(fmt::format("momentum: {} of body {}, {:.3g} is missing, of {:.3g}", "xyw"[j], i,
-                                   sums[i][j].value, sums[i][j].size));
+      broken.push_back(tumble::format("momentum: {} of body {}, {:.3g} is missing, of {:.3g}", "xyw"[j], i,
+                                      sums[i][j].value, sums[i][j].size));
     }
   }
 }
@@ -94,7 +94,7 @@ namespace {
 // What pushes does not pull; where nothing bounces, what pushes closes its gap or is closed.
 void check_signorini(const ContactRecord& c, double h, double tolerance, bool bounces,
                      std::vector<std::string>& broken) {
-  const auto blame = [&](const char* what) { broken.push_back(fmt::format("{}: {}", what, describe(c))); };
+  const auto blame = [&](const char* what) { broken.push_back(tumble::format("{}: {}", what, describe(c))); };
   const double closing = std::max(std::max(c.contact.gap, 0.0) + c.bend, 0.0) / h, u_n = c.normal_velocity_after;
   if (c.normal_impulse < 0.0) blame("a contact pulls");
   if (c.mode == ContactMode::open && (c.normal_impulse != 0.0 || c.friction_impulse != 0.0)) {
@@ -110,7 +110,7 @@ void check_signorini(const ContactRecord& c, double h, double tolerance, bool bo
 // Friction within its cone; full, and against the slip, where there is one.
 // `slack` [N s]: what the impulse may be off where the velocity is by `tolerance`.
 void check_coulomb(const ContactRecord& c, double tolerance, double slack, std::vector<std::string>& broken) {
-  const auto blame = [&](const char* what) { broken.push_back(fmt::format("{}: {}", what, describe(c))); };
+  const auto blame = [&](const char* what) { broken.push_back(tumble::format("{}: {}", what, describe(c))); };
   const double P_n = c.normal_impulse, P_t = c.friction_impulse, u_t = c.tangential_velocity_after;
   if (std::abs(P_t) > c.law.static_friction * P_n * (1.0 + k_force_round_off)) blame("friction is outside its cone");
   if (c.mode == ContactMode::open || std::abs(u_t) <= tolerance) return;
@@ -160,7 +160,7 @@ void check_energy(const Scene& scene, const State& before, const State& after, c
     sum.add(term);
   }
   if (std::abs(sum.value) > k_ledger_round_off * sum.size) {
-    broken.push_back(fmt::format("energy: {:.3g} J are missing, of {:.3g} J", sum.value, sum.size));
+    broken.push_back(tumble::format("energy: {:.3g} J are missing, of {:.3g} J", sum.value, sum.size));
   }
   if (std::abs(now.kinetic - energy.kinetic) > k_ledger_round_off * now.kinetic)
     broken.push_back("kinetic energy is not that of the state");
@@ -168,8 +168,8 @@ void check_energy(const Scene& scene, const State& before, const State& after, c
     broken.push_back("potential energy is not that of the state");
   const double gain = energy.stabilisation_work - energy.friction_loss - energy.impact_loss;
   if (gain > energy.created + k_ledger_round_off * sum.size) {
-    broken.push_back(
-        fmt::format("energy: contacts gain {:.3g} J and report {:.3g} J, of {:.3g} J", gain, energy.created, sum.size));
+    broken.push_back(tumble::format("energy: contacts gain {:.3g} J and report {:.3g} J, of {:.3g} J", gain,
+                                    energy.created, sum.size));
   }
 }
 

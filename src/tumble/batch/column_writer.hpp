@@ -24,7 +24,7 @@ class ColumnWriter {
   States<Real> next() { return {held_[k_line + (added_ - written_)][0], k_most_drops}; }
   void add();
 
-  static constexpr std::size_t k_most_drops = 32;  // what is held back stays in the first-level cache
+  static constexpr std::size_t k_most_drops = 32;  // what is held back, 36 kB, stays in the caches next to the core
 
  private:
   struct Columns {

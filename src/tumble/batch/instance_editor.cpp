@@ -4,8 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/limits.hpp"
 
 namespace tumble::batch {
@@ -55,8 +54,8 @@ bool is_common(const Varied& varied) { return varied.values.size() == 1; }
 
 void require_length(const std::string& name, Index length, Index count, Index width) {
   if (length == count * width || length == width) return;
-  throw std::invalid_argument(
-      fmt::format("{}: must have {} x {} numbers, or {} for all instances, got {}", name, count, width, width, length));
+  throw std::invalid_argument(tumble::format("{}: must have {} x {} numbers, or {} for all instances, got {}", name,
+                                             count, width, width, length));
 }
 
 }  // namespace
@@ -86,7 +85,7 @@ InstanceEditor::InstanceEditor(const Scene& scene, const Instances& instances)
     const Varied& varied = varied_[k];
     check_varied(varied);
     if (k > 0 && key(varied_[k - 1]) == key(varied)) {
-      throw std::invalid_argument(fmt::format("{}: must be given once, got it twice", name_of(varied)));
+      throw std::invalid_argument(tumble::format("{}: must be given once, got it twice", name_of(varied)));
     }
     const Owner owner = info_of(varied.quantity).owner;
     if (owner == Owner::law) laws_.push_back(varied.index);
@@ -100,15 +99,16 @@ void InstanceEditor::check_varied(const Varied& varied) const {
   if (owner != Owner::scene) {
     const Index count = owner == Owner::body ? scene_.bodies.size() : scene_.materials.size() + scene_.pairs.size();
     if (varied.index < 0 || static_cast<Index>(varied.index) >= count) {
-      throw std::invalid_argument(fmt::format("{}: must be of one of the {} {}, got the index {}", name, count,
-                                              owner == Owner::body ? "bodies" : "materials and pairs", varied.index));
+      throw std::invalid_argument(tumble::format("{}: must be of one of the {} {}, got the index {}", name, count,
+                                                 owner == Owner::body ? "bodies" : "materials and pairs",
+                                                 varied.index));
     }
   }
   if (owner == Owner::body) {
     const BodyKind kind = scene_.bodies[static_cast<Index>(varied.index)].kind;
     if (kind != BodyKind::dynamic) {
       throw std::invalid_argument(
-          fmt::format("{}: only dynamic bodies have one, got it for a {} one", name_of(varied), to_string(kind)));
+          tumble::format("{}: only dynamic bodies have one, got it for a {} one", name_of(varied), to_string(kind)));
     }
   }
   require_length(name_of(varied), varied.values.size(), instances_.count, 1);
@@ -118,11 +118,11 @@ std::string InstanceEditor::name_of(const Varied& varied) const {
   const auto [name, owner] = info_of(varied.quantity);
   const auto index = static_cast<Index>(varied.index), num_materials = scene_.materials.size();
   if (owner == Owner::scene) return name;
-  if (owner == Owner::body) return fmt::format("{} of {}", name, body_labels(scene_)[index]);
-  if (index < num_materials) return fmt::format("{} of {}", name, scene_.materials[index].name);
+  if (owner == Owner::body) return tumble::format("{} of {}", name, body_labels(scene_)[index]);
+  if (index < num_materials) return tumble::format("{} of {}", name, scene_.materials[index].name);
   const MaterialPair& pair = scene_.pairs[index - num_materials];
-  return fmt::format("{} of {} and {}", name, scene_.materials[static_cast<Index>(pair.a)].name,
-                     scene_.materials[static_cast<Index>(pair.b)].name);
+  return tumble::format("{} of {} and {}", name, scene_.materials[static_cast<Index>(pair.a)].name,
+                        scene_.materials[static_cast<Index>(pair.b)].name);
 }
 
 // That of the even filling if the body has it, as `set_mass` computes it: then to the bit what that gives another mass.
@@ -204,7 +204,7 @@ bool InstanceEditor::is_valid(const Scene& instance) const {
 Scene instance_scene(const Scene& scene, const Instances& instances, Index i) {
   if (i >= instances.count) {
     throw std::invalid_argument(
-        fmt::format("i: must be the number of one of {} instances, got {}", instances.count, i));
+        tumble::format("i: must be the number of one of {} instances, got {}", instances.count, i));
   }
   Scene instance = scene;
   InstanceEditor(scene, instances).edit(i, instance);

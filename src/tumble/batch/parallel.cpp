@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble::batch {
 namespace {
@@ -95,7 +95,8 @@ int num_cores() {
 
 void require_threads(int threads) {
   if (threads < 0 || threads > 1024) {
-    throw std::invalid_argument(fmt::format("threads: must be in [0, 1024], 0 for one for each core, got {}", threads));
+    throw std::invalid_argument(
+        tumble::format("threads: must be in [0, 1024], 0 for one for each core, got {}", threads));
   }
 }
 

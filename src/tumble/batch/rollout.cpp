@@ -8,11 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "tumble/batch/instance_editor.hpp"
 #include "tumble/batch/parallel.hpp"
 #include "tumble/batch/run_observer.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/step/step_parts.hpp"
 #include "tumble/trajectory/simulate.hpp"
 
@@ -28,7 +27,7 @@ constexpr Index k_max_chunk = 64;          // instances: then handing out chunks
 constexpr Index k_chunks_per_thread = 16;  // fewer than that, and threads would wait for the last one
 
 RunSettings checked_run_settings(const Scene& scene, const RolloutSettings& settings) {
-  if (settings.every < 0) throw std::invalid_argument(fmt::format("every: must be >= 0, got {}", settings.every));
+  if (settings.every < 0) throw std::invalid_argument(tumble::format("every: must be >= 0, got {}", settings.every));
   require_threads(settings.threads);
   validate(settings.measures);
   validate(scene);
@@ -44,7 +43,7 @@ Index num_samples(const RunSettings& run, int every) {
 template <class T>
 void require_size(const char* field, std::span<T> array, Index size) {
   if (array.empty() || array.size() == size) return;
-  throw std::invalid_argument(fmt::format("{}: must have {} entries, or none, got {}", field, size, array.size()));
+  throw std::invalid_argument(tumble::format("{}: must have {} entries, or none, got {}", field, size, array.size()));
 }
 
 // Gives the memory of the steps the masses and laws of an instance, as if it had been made for it.

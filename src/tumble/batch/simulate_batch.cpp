@@ -5,13 +5,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "tumble/batch/column_writer.hpp"
 #include "tumble/batch/drop_lanes.hpp"
 #include "tumble/batch/drop_measures.hpp"
 #include "tumble/batch/parallel.hpp"
 #include "tumble/drop/drop.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble::batch {
@@ -36,7 +35,7 @@ constexpr NamedParameter k_parameters[] = {
 template <class T>
 void require_length(std::span<T> array, const char* name, std::size_t length) {
   if (array.empty() || array.size() == length) return;
-  throw std::invalid_argument(fmt::format("{}: must have {} numbers, got {}", name, length, array.size()));
+  throw std::invalid_argument(tumble::format("{}: must have {} numbers, got {}", name, length, array.size()));
 }
 
 template <class Real>
@@ -44,13 +43,13 @@ void require_lengths(const DropStarts<Real>& starts, const DropParameters& param
                      const DropResults<Real>& results) {
   if (starts.q0.size() % 3 != 0 || starts.q0.size() != starts.v0.size()) {
     throw std::invalid_argument(
-        fmt::format("q0, v0: must both be N x 3, got {} and {} numbers", starts.q0.size(), starts.v0.size()));
+        tumble::format("q0, v0: must both be N x 3, got {} and {} numbers", starts.q0.size(), starts.v0.size()));
   }
   const std::size_t count = starts.size();
   for (const auto& [name, values, field] : k_parameters) {
     const std::size_t length = (parameters.*values).size();
     if (length > 1 && length != count) {
-      throw std::invalid_argument(fmt::format("{}: must have 1 or {} values, got {}", name, count, length));
+      throw std::invalid_argument(tumble::format("{}: must have 1 or {} values, got {}", name, count, length));
     }
   }
   const std::size_t kept = 3 * count * kept_columns(parameters.columns, settings.every);
@@ -63,11 +62,11 @@ void require_lengths(const DropStarts<Real>& starts, const DropParameters& param
 
 void validate(const BatchSettings& settings) {
   require_threads(settings.threads);
-  if (settings.every < 0) throw std::invalid_argument(fmt::format("every: must be >= 0, got {}", settings.every));
+  if (settings.every < 0) throw std::invalid_argument(tumble::format("every: must be >= 0, got {}", settings.every));
   validate(settings.measures);
   if (settings.instruction_set && !has_instruction_set(*settings.instruction_set)) {
     throw std::invalid_argument(
-        fmt::format("instruction_set: this machine has no {}", to_string(*settings.instruction_set)));
+        tumble::format("instruction_set: this machine has no {}", to_string(*settings.instruction_set)));
   }
 }
 

@@ -3,10 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "tumble/lcp/enumerate.hpp"
 #include "tumble/lcp/lemke.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/math/sin_cos.hpp"
 
@@ -27,7 +26,7 @@ struct Model {
 void require_finite(const Vector3& values, const char* name) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!std::isfinite(values[i])) {
-      throw std::invalid_argument(fmt::format("{}[{}]: must be finite, got {}", name, i, values[i]));
+      throw std::invalid_argument(tumble::format("{}[{}]: must be finite, got {}", name, i, values[i]));
     }
   }
 }
@@ -222,8 +221,8 @@ Vector3 solve_LCP(const Matrix4& V, const Vector4& p) {
   LcpResult result = lemke(problem, {.accepted_residual = 1e-10});
   if (result.status != LcpStatus::solved) result = enumerate(problem);
   if (result.status != LcpStatus::solved) {
-    throw NoSolution(fmt::format("the LCP has no solution: status {}, all {} complementary bases were tried",
-                                 to_string(result.status), result.pivots),
+    throw NoSolution(tumble::format("the LCP has no solution: status {}, all {} complementary bases were tried",
+                                    to_string(result.status), result.pivots),
                      result.status);
   }
   return {result.z[0], result.z[1], result.z[2]};
@@ -241,8 +240,8 @@ RecordedStep step_with_record(const Vector3& q, const Vector3& v, const Paramete
 State step(const Vector3& q, const Vector3& v, const Parameters& parameters) {
   const auto [state, record] = step_with_record(q, v, parameters);
   if (record.status != LcpStatus::solved) {
-    throw NoSolution(fmt::format("the step left the range of double arithmetic: LCP status {}, residual {:.3g}",
-                                 to_string(record.status), record.residual),
+    throw NoSolution(tumble::format("the step left the range of double arithmetic: LCP status {}, residual {:.3g}",
+                                    to_string(record.status), record.residual),
                      record.status);
   }
   return state;
@@ -272,8 +271,8 @@ Record simulate_with_record(const Vector3& q0, const Vector3& v0, const Paramete
   require_finite(v0, "v0");
   if (!has_energy({q0, v0}, parameters)) {
     throw std::invalid_argument(
-        fmt::format("q0, v0: the kinetic and the potential energy must be finite, got {} J and {} J",
-                    kinetic_energy(v0, parameters), potential_energy(q0, parameters)));
+        tumble::format("q0, v0: the kinetic and the potential energy must be finite, got {} J and {} J",
+                       kinetic_energy(v0, parameters), potential_energy(q0, parameters)));
   }
   Record record;
   record.parameters = parameters;

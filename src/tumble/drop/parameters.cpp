@@ -3,14 +3,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble::drop {
 namespace {
 
 void require(bool holds, const char* field, const char* range, double value, const char* unit) {
   if (holds) return;
-  throw std::invalid_argument(fmt::format("{}: must be {}, got {}{}{}", field, range, value, *unit ? " " : "", unit));
+  throw std::invalid_argument(
+      tumble::format("{}: must be {}, got {}{}{}", field, range, value, *unit ? " " : "", unit));
 }
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
@@ -28,7 +29,7 @@ void validate(const Parameters& p) {
   require(std::isfinite(p.delta) && p.delta >= 0.0, "delta", "finite and >= 0", p.delta, "m");
   require(std::isfinite(p.g), "g", "finite", p.g, "m/s^2");
   if (p.columns < 2 || p.columns > k_max_columns) {
-    throw std::invalid_argument(fmt::format("columns: must be in [2, {}], got {}", k_max_columns, p.columns));
+    throw std::invalid_argument(tumble::format("columns: must be in [2, {}], got {}", k_max_columns, p.columns));
   }
   const double inertia = moment_of_inertia(p);
   require(inertia > 1e-300 && inertia < 1e300 && p.m > 1e-300 && p.m < 1e300, "m, l",

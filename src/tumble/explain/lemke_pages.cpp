@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 namespace {
@@ -88,8 +88,8 @@ LemkePages lemke_pages(const LemkeTrace& trace, std::size_t n, const LemkeSettin
 
 std::string lemke_variable(int variable, std::size_t n) {
   const int count = static_cast<int>(n);
-  return variable < count ? fmt::format("w{}", variable + 1)
-                          : fmt::format("z{}", variable < 2 * count ? variable - count + 1 : 0);
+  return variable < count ? tumble::format("w{}", variable + 1)
+                          : tumble::format("z{}", variable < 2 * count ? variable - count + 1 : 0);
 }
 
 }  // namespace tumble

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "tumble/contact/contact_rows.hpp"
 #include "tumble/lcp/contact_system.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 namespace {
@@ -91,7 +90,7 @@ void name_rows_of_contacts(StepProblem& shown, std::size_t k) {
     shown.w_units.push_back(std::move(w_unit));
   };
   const auto of = [&](const char* name, std::size_t i) {
-    return k == 1 ? std::string(name) : fmt::format("{} {}", name, i + 1);
+    return k == 1 ? std::string(name) : tumble::format("{} {}", name, i + 1);
   };
   for (std::size_t i = 0; i < k; ++i) add(of("P_n", i), "N s", of("u_n - target", i), "m/s");
   for (std::size_t i = 0; i < k; ++i) {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 namespace {
@@ -14,12 +14,12 @@ namespace {
 using Index = std::size_t;
 
 [[noreturn]] void refuse(const std::string& field, const std::string& range, double value) {
-  throw std::invalid_argument(fmt::format("{}: must be {}, got {}", field, range, value));
+  throw std::invalid_argument(tumble::format("{}: must be {}, got {}", field, range, value));
 }
 
 void require_finite(const Vector3& values, const std::string& field) {
   for (Index i = 0; i < 3; ++i) {
-    if (!std::isfinite(values[i])) refuse(fmt::format("{}[{}]", field, i), "finite", values[i]);
+    if (!std::isfinite(values[i])) refuse(tumble::format("{}[{}]", field, i), "finite", values[i]);
   }
 }
 
@@ -57,21 +57,21 @@ bool share_a_body(const BodyContact& c, const BodyContact& d) {
 void validate(const ContactSystem& system) {
   if (system.contacts.empty()) throw std::invalid_argument("contacts: must have at least 1 entry, got 0");
   if (system.velocity.size() != system.inverse_mass.size()) {
-    throw std::invalid_argument(fmt::format("velocity: must have one entry per body ({}), got {}",
-                                            system.inverse_mass.size(), system.velocity.size()));
+    throw std::invalid_argument(tumble::format("velocity: must have one entry per body ({}), got {}",
+                                               system.inverse_mass.size(), system.velocity.size()));
   }
   const int num_bodies = static_cast<int>(system.inverse_mass.size());
   for (Index k = 0; k < system.inverse_mass.size(); ++k) {
-    require_finite(system.inverse_mass[k], fmt::format("inverse_mass[{}]", k));
-    require_finite(system.velocity[k], fmt::format("velocity[{}]", k));
+    require_finite(system.inverse_mass[k], tumble::format("inverse_mass[{}]", k));
+    require_finite(system.velocity[k], tumble::format("velocity[{}]", k));
     for (const double x : system.inverse_mass[k]) {
-      if (x < 0.0) refuse(fmt::format("inverse_mass[{}]", k), ">= 0", x);
+      if (x < 0.0) refuse(tumble::format("inverse_mass[{}]", k), ">= 0", x);
     }
   }
   for (Index k = 0; k < system.contacts.size(); ++k) {
     const BodyContact& c = system.contacts[k];
-    const std::string name = fmt::format("contacts[{}]", k);
-    const std::string bodies = fmt::format("in -1 .. {}", num_bodies - 1);
+    const std::string name = tumble::format("contacts[{}]", k);
+    const std::string bodies = tumble::format("in -1 .. {}", num_bodies - 1);
     if (c.body_a < -1 || c.body_a >= num_bodies) refuse(name + ".body_a", bodies, c.body_a);
     if (c.body_b < -1 || c.body_b >= num_bodies) refuse(name + ".body_b", bodies, c.body_b);
     if (c.body_a == c.body_b) refuse(name + ".body_b", "another body than body_a", c.body_b);
@@ -140,7 +140,7 @@ std::vector<Vector3> velocities_after(const ContactSystem& system, const std::ve
   validate(system);
   const Index num_contacts = system.contacts.size();
   if (z.size() != 4 * num_contacts) {
-    throw std::invalid_argument(fmt::format("z: must have {} entries, got {}", 4 * num_contacts, z.size()));
+    throw std::invalid_argument(tumble::format("z: must have {} entries, got {}", 4 * num_contacts, z.size()));
   }
   std::vector<Vector3> v = system.velocity;
   for (Index i = 0; i < num_contacts; ++i) {

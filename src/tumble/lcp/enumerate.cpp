@@ -7,14 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "tumble/lcp/contact_structure.hpp"
 #include "tumble/lcp/equilibrate.hpp"
 #include "tumble/lcp/integer_lcp.hpp"
 #include "tumble/lcp/judge.hpp"
 #include "tumble/lcp/require.hpp"
 #include "tumble/lcp/small_elimination.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 namespace {
@@ -360,8 +359,8 @@ class Enumeration {
 void check(const LcpProblem& problem, const EnumerateSettings& settings) {
   validate(problem);
   if (problem.size() > k_max_enumerate_size) {
-    throw std::invalid_argument(fmt::format("q: enumeration takes at most {} entries (it tries 2^n bases), got {}",
-                                            k_max_enumerate_size, problem.size()));
+    throw std::invalid_argument(tumble::format("q: enumeration takes at most {} entries (it tries 2^n bases), got {}",
+                                               k_max_enumerate_size, problem.size()));
   }
   validate(settings);
 }

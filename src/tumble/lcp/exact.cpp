@@ -4,10 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "tumble/lcp/integer_pivoting.hpp"
 #include "tumble/lcp/residual.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 namespace {
@@ -21,13 +20,14 @@ IntegerLcp prepare(const RationalLcp& problem, std::size_t max_size) {
 std::vector<Rational> rationals_of(const std::vector<std::string>& numbers, const char* name) {
   std::vector<Rational> rationals;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    rationals.push_back(parse_entry(numbers[i], fmt::format("{}[{}]", name, i)));
+    rationals.push_back(parse_entry(numbers[i], tumble::format("{}[{}]", name, i)));
   }
   return rationals;
 }
 
 void require_length(const char* name, std::size_t length, std::size_t n) {
-  if (length != n) throw std::invalid_argument(fmt::format("{}: must have {} entries like q, got {}", name, n, length));
+  if (length != n)
+    throw std::invalid_argument(tumble::format("{}: must have {} entries like q, got {}", name, n, length));
 }
 
 // The w of a z, both in the units of the problem.

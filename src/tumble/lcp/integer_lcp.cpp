@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 namespace {
@@ -19,7 +19,7 @@ Rational parse_entry(const std::string& text, const std::string& name) {
   try {
     return parse_rational(text, k_max_result_digits);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}, got '{}'", name, error.what(), text.substr(0, 30)));
+    throw std::invalid_argument(tumble::format("{}: {}, got '{}'", name, error.what(), text.substr(0, 30)));
   }
 }
 
@@ -28,13 +28,13 @@ RationalLcp rationals_of(const ExactLcp& problem) {
   if (n == 0) throw std::invalid_argument("q: must have at least 1 entry, got 0");
   if (problem.M.size() != n * n) {
     throw std::invalid_argument(
-        fmt::format("M: must be {0} x {0} for q of length {0}, got {1} entries", n, problem.M.size()));
+        tumble::format("M: must be {0} x {0} for q of length {0}, got {1} entries", n, problem.M.size()));
   }
   RationalLcp rationals;
   for (std::size_t i = 0; i < n * n; ++i) {
-    rationals.M.push_back(parse_entry(problem.M[i], fmt::format("M[{}][{}]", i / n, i % n)));
+    rationals.M.push_back(parse_entry(problem.M[i], tumble::format("M[{}][{}]", i / n, i % n)));
   }
-  for (std::size_t i = 0; i < n; ++i) rationals.q.push_back(parse_entry(problem.q[i], fmt::format("q[{}]", i)));
+  for (std::size_t i = 0; i < n; ++i) rationals.q.push_back(parse_entry(problem.q[i], tumble::format("q[{}]", i)));
   return rationals;
 }
 
@@ -85,12 +85,12 @@ IntegerLcp integers_of(const RationalLcp& problem) {
 void require_exact_limits(const IntegerLcp& problem, std::size_t max_size) {
   if (problem.n > max_size) {
     throw std::invalid_argument(
-        fmt::format("q: exact arithmetic takes at most {} entries here, got {}", max_size, problem.n));
+        tumble::format("q: exact arithmetic takes at most {} entries here, got {}", max_size, problem.n));
   }
   if (problem.n * problem.num_bits > k_max_exact_bits) {
-    throw std::invalid_argument(
-        fmt::format("M, q: brought to whole numbers, n times their binary digits must be at most {}, got {} times {}",
-                    k_max_exact_bits, problem.n, problem.num_bits));
+    throw std::invalid_argument(tumble::format(
+        "M, q: brought to whole numbers, n times their binary digits must be at most {}, got {} times {}",
+        k_max_exact_bits, problem.n, problem.num_bits));
   }
 }
 

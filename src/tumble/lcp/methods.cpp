@@ -9,9 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble {
@@ -70,7 +68,7 @@ SettingValue as_value(Precision field) {
 
 [[noreturn]] void refuse(std::string_view name, std::string_view expected, const SettingValue& value) {
   const char* quote = std::holds_alternative<std::string>(value) ? "'" : "";
-  throw std::invalid_argument(fmt::format("{0}: must be {1}, got {2}{3}{2}", name, expected, quote, to_text(value)));
+  throw std::invalid_argument(tumble::format("{0}: must be {1}, got {2}{3}{2}", name, expected, quote, to_text(value)));
 }
 
 void assign(std::string_view name, double& field, const SettingValue& value) {
@@ -134,15 +132,15 @@ const LcpMethod& lcp_method(std::string_view name) {
     if (method.name == name) return method;
     names.push_back(method.name);
   }
-  throw std::invalid_argument(fmt::format("method: must be one of {}, got '{}'", fmt::join(names, ", "), name));
+  throw std::invalid_argument(tumble::format("method: must be one of {}, got '{}'", tumble::join(names, ", "), name));
 }
 
 std::string to_text(const SettingValue& value) {
   struct AsText {
-    std::string operator()(int x) const { return fmt::format("{}", x); }
+    std::string operator()(int x) const { return tumble::format("{}", x); }
     std::string operator()(double x) const { return to_text(x); }
     std::string operator()(const std::string& word) const { return word; }
-    std::string operator()(const std::vector<double>& list) const { return fmt::format("{}", fmt::join(list, ",")); }
+    std::string operator()(const std::vector<double>& list) const { return tumble::join(list, ","); }
   };
   return std::visit(AsText(), value);
 }
@@ -165,7 +163,8 @@ void set_by_name(LcpSettings& settings, std::string_view name, const SettingValu
   };
   std::visit([&](auto& chosen) { visit_settings(chosen, set); }, settings);
   if (is_found) return;
-  throw UnknownSetting(fmt::format("{}: is not a setting of this method, which has {}", name, fmt::join(names, ", ")));
+  throw UnknownSetting(
+      tumble::format("{}: is not a setting of this method, which has {}", name, tumble::join(names, ", ")));
 }
 
 }  // namespace tumble

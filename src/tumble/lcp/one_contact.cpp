@@ -5,9 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "tumble/lcp/one_contact_lanes.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/math/instruction_set.hpp"
 
 namespace tumble {
@@ -161,7 +160,7 @@ namespace {
 template <class T>
 void require_length(std::span<T> array, const char* name, std::size_t count, bool may_be_empty) {
   if (array.size() == count || (may_be_empty && array.empty())) return;
-  throw std::invalid_argument(fmt::format("{}: must have {} entries like A_nn, got {}", name, count, array.size()));
+  throw std::invalid_argument(tumble::format("{}: must have {} entries like A_nn, got {}", name, count, array.size()));
 }
 
 OneContact contact_at(const OneContactArrays& a, std::size_t i) {
@@ -194,7 +193,8 @@ void solve_one_contacts(const OneContactArrays& contacts, const OneContactSoluti
   for (std::size_t first = 0; first < count; first += block_size) {
     const std::size_t size = std::min(block_size, count - first);
     std::array<std::uint8_t, block_size> is_done{};
-    if (size == block_size && solve_block != nullptr && solve_block(contacts, solutions, first, is_done.data())) continue;
+    if (size == block_size && solve_block != nullptr && solve_block(contacts, solutions, first, is_done.data()))
+      continue;
     for (std::size_t k = 0; k < size; ++k) {
       if (is_done[k] != 0) continue;
       const std::size_t i = first + k;

@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "tumble/math/bit_cast.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/math/target_clones.hpp"
 
 namespace tumble {
@@ -29,28 +28,28 @@ void validate(const LcpProblem& problem) {
   if (n == 0) throw std::invalid_argument("q: must have at least 1 entry, got 0");
   if (problem.M.size() != n * n) {
     throw std::invalid_argument(
-        fmt::format("M: must be {0} x {0} for q of length {0}, got {1} entries", n, problem.M.size()));
+        tumble::format("M: must be {0} x {0} for q of length {0}, got {1} entries", n, problem.M.size()));
   }
   const bool is_finite = is_all_finite(problem.M.data(), n * n);
   for (std::size_t i = 0; i < n * n && !is_finite; ++i) {
     if (!std::isfinite(problem.M[i])) {
-      throw std::invalid_argument(fmt::format("M[{}][{}]: must be finite, got {}", i / n, i % n, problem.M[i]));
+      throw std::invalid_argument(tumble::format("M[{}][{}]: must be finite, got {}", i / n, i % n, problem.M[i]));
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (!std::isfinite(problem.q[i])) {
-      throw std::invalid_argument(fmt::format("q[{}]: must be finite, got {}", i, problem.q[i]));
+      throw std::invalid_argument(tumble::format("q[{}]: must be finite, got {}", i, problem.q[i]));
     }
   }
   if (problem.row_sizes.empty()) return;
   if (problem.row_sizes.size() != n) {
     throw std::invalid_argument(
-        fmt::format("row_sizes: must be empty or have {} entries, got {}", n, problem.row_sizes.size()));
+        tumble::format("row_sizes: must be empty or have {} entries, got {}", n, problem.row_sizes.size()));
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (!(std::isfinite(problem.row_sizes[i]) && problem.row_sizes[i] >= 0.0)) {
       throw std::invalid_argument(
-          fmt::format("row_sizes[{}]: must be finite and >= 0, got {}", i, problem.row_sizes[i]));
+          tumble::format("row_sizes[{}]: must be finite and >= 0, got {}", i, problem.row_sizes[i]));
     }
   }
 }

@@ -5,9 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "tumble/lcp/rational.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble {
@@ -41,20 +40,20 @@ std::vector<std::vector<Token>> split_lines(std::string_view text) {
 }
 
 [[noreturn]] void refuse(const std::string& name, const Token& token, const std::string& why) {
-  throw std::invalid_argument(fmt::format("{}:{}:{}: {}", name, token.line, token.column, why));
+  throw std::invalid_argument(tumble::format("{}:{}:{}: {}", name, token.line, token.column, why));
 }
 
 // The word itself for a message: short, and without bytes that a terminal would act on.
 std::string quoted(std::string_view word) {
   std::string shown;
   for (const char c : word.substr(0, 30)) shown += (c > 31 && c < 127) ? c : '?';
-  return fmt::format("'{}{}'", shown, word.size() > 30 ? "..." : "");
+  return tumble::format("'{}{}'", shown, word.size() > 30 ? "..." : "");
 }
 
 double number(const std::string& name, const Token& token) {
   const std::optional<double> value = parse_fraction(token.text);
-  if (!value) refuse(name, token, fmt::format("expected a number like 1e-3 or 1/3, got {}", quoted(token.text)));
-  if (!std::isfinite(*value)) refuse(name, token, fmt::format("must be finite, got {}", quoted(token.text)));
+  if (!value) refuse(name, token, tumble::format("expected a number like 1e-3 or 1/3, got {}", quoted(token.text)));
+  if (!std::isfinite(*value)) refuse(name, token, tumble::format("must be finite, got {}", quoted(token.text)));
   return *value;
 }
 
@@ -62,7 +61,7 @@ std::string fraction(const std::string& name, const Token& token) {
   try {
     return to_text(parse_rational(token.text, k_max_file_digits));
   } catch (const std::invalid_argument& error) {
-    refuse(name, token, fmt::format("{}, got {}", error.what(), quoted(token.text)));
+    refuse(name, token, tumble::format("{}, got {}", error.what(), quoted(token.text)));
   }
 }
 
@@ -74,10 +73,10 @@ bool is_heading(const std::vector<Token>& line, std::string_view word) {
 template <class Problem, class NumberOf>
 Problem parse(std::string_view text, const std::string& name, std::size_t max_size, NumberOf number_of) {
   const std::vector<std::vector<Token>> lines = split_lines(text);
-  if (lines.empty()) throw std::invalid_argument(fmt::format("{}:1:1: empty, expected a line 'M'", name));
+  if (lines.empty()) throw std::invalid_argument(tumble::format("{}:1:1: empty, expected a line 'M'", name));
   if (!is_heading(lines.front(), "M")) {
     refuse(name, lines.front().front(),
-           fmt::format("expected a line 'M' before the matrix, got {}", quoted(lines.front().front().text)));
+           tumble::format("expected a line 'M' before the matrix, got {}", quoted(lines.front().front().text)));
   }
   Problem problem;
   const Token& last = lines.back().back();
@@ -87,26 +86,27 @@ Problem parse(std::string_view text, const std::string& name, std::size_t max_si
     const std::vector<Token>& row = lines[at];
     if (at == 1) n = row.size();
     if (n > max_size) {
-      refuse(name, row[max_size], fmt::format("M: at most {} columns are read, got {}", max_size, n));
+      refuse(name, row[max_size], tumble::format("M: at most {} columns are read, got {}", max_size, n));
     }
     if (row.size() != n) {
-      refuse(name, row.front(), fmt::format("M: row {} must have {} entries like row 1, got {}", at, n, row.size()));
+      refuse(name, row.front(), tumble::format("M: row {} must have {} entries like row 1, got {}", at, n, row.size()));
     }
-    if (at > n) refuse(name, row.front(), fmt::format("M: must be square, got more than {0} rows of {0}", n));
+    if (at > n) refuse(name, row.front(), tumble::format("M: must be square, got more than {0} rows of {0}", n));
     for (const Token& token : row) problem.M.push_back(number_of(name, token));
   }
   if (at == lines.size()) refuse(name, last, "expected a line 'q' after the matrix");
   if (at - 1 != n || n == 0) {
-    refuse(name, lines[at].front(), fmt::format("M: must be square with at least 1 row, got {} rows of {}", at - 1, n));
+    refuse(name, lines[at].front(),
+           tumble::format("M: must be square with at least 1 row, got {} rows of {}", at - 1, n));
   }
   for (++at; at < lines.size(); ++at) {
     for (const Token& token : lines[at]) {
-      if (problem.q.size() == n) refuse(name, token, fmt::format("q: must have {} entries, got more", n));
+      if (problem.q.size() == n) refuse(name, token, tumble::format("q: must have {} entries, got more", n));
       problem.q.push_back(number_of(name, token));
     }
   }
   if (problem.q.size() != n) {
-    refuse(name, last, fmt::format("q: must have {} entries, got {}", n, problem.q.size()));
+    refuse(name, last, tumble::format("q: must have {} entries, got {}", n, problem.q.size()));
   }
   return problem;
 }

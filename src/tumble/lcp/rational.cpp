@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 namespace {
@@ -22,7 +22,7 @@ using boost::multiprecision::pow;
 
 [[noreturn]] void refuse_length(std::size_t max_digits) {
   throw std::invalid_argument(
-      fmt::format("must have at most {} digits and an exponent within +-{}", max_digits, k_max_number_exponent));
+      tumble::format("must have at most {} digits and an exponent within +-{}", max_digits, k_max_number_exponent));
 }
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }

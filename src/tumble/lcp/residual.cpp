@@ -5,9 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "tumble/lcp/judge.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 
@@ -108,7 +107,7 @@ std::vector<double> default_row_sizes(const LcpProblem& problem) {
 LcpResidual residual(const LcpProblem& problem, std::span<const double> z) {
   validate(problem);
   if (z.size() != problem.size()) {
-    throw std::invalid_argument(fmt::format("z: must have {} entries like q, got {}", problem.size(), z.size()));
+    throw std::invalid_argument(tumble::format("z: must have {} entries like q, got {}", problem.size(), z.size()));
   }
   std::vector<double> w;
   JudgeBuffers buffers;

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 std::string_view to_string(InstructionSet set) {
@@ -48,7 +48,7 @@ InstructionSet instruction_set_named(std::string_view name, std::string_view fie
     if (name == to_string(set)) return set;
     names += (names.empty() ? "" : ", ") + std::string(to_string(set));
   }
-  throw std::invalid_argument(fmt::format("{}: must be one of {} on this machine, got '{}'", field, names, name));
+  throw std::invalid_argument(tumble::format("{}: must be one of {} on this machine, got '{}'", field, names, name));
 }
 
 InstructionSet instruction_set() {

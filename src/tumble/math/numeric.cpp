@@ -4,7 +4,7 @@
 #include <system_error>
 #include <version>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 #ifndef __cpp_lib_to_chars
 #include <cerrno>
@@ -55,6 +55,6 @@ std::optional<double> parse_degrees(std::string_view text) {
   return *degrees / 180.0 * k_pi;
 }
 
-std::string to_text(double value) { return fmt::format("{}", value); }
+std::string to_text(double value) { return tumble::format("{}", value); }
 
 }  // namespace tumble

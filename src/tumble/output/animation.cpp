@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/draw.hpp"
 #include "tumble/output/draw_bodies.hpp"
 
@@ -35,8 +34,8 @@ constexpr int k_most_paths = 20;
 constexpr double k_smallest_arrow = 0.02;  // of the largest impulse
 
 std::string energy_text(double value, double largest) {
-  if (!(std::abs(largest) < 1e6) || largest < 1e-4) return fmt::format("{:.2e} J", value);
-  return fmt::format("{:.{}f} J", value, decimals_for(largest, 0));
+  if (!(std::abs(largest) < 1e6) || largest < 1e-4) return tumble::format("{:.2e} J", value);
+  return tumble::format("{:.{}f} J", value, decimals_for(largest, 0));
 }
 
 // The lowest and the highest value that the bars show [J].
@@ -101,16 +100,16 @@ struct Animation::Parts {
 
 int count_frames(double motion, double speed, int max_frames) {
   if (!(speed > 0.0 && std::isfinite(speed))) {
-    throw std::invalid_argument(fmt::format("speed: must be finite and > 0, got {}", speed));
+    throw std::invalid_argument(tumble::format("speed: must be finite and > 0, got {}", speed));
   }
   const double duration = motion / speed;
   // At least the first and the last state are shown, however short the run is.
   const double frames = motion > 0.0 ? std::max(std::ceil(duration / k_frame_time - 1e-6), 1.0) + 1.0 : 1.0;
   if (frames > max_frames) {
     throw std::invalid_argument(
-        fmt::format("animation: at most {} s of film are made, this run needs {:.6g} s; show it faster or "
-                    "less of it",
-                    max_frames * k_frame_time, duration));
+        tumble::format("animation: at most {} s of film are made, this run needs {:.6g} s; show it faster or "
+                       "less of it",
+                       max_frames * k_frame_time, duration));
   }
   return static_cast<int>(frames);
 }
@@ -148,8 +147,8 @@ double Animation::Parts::arrow_length(const Impulse& impulse) const {
 
 void Animation::Parts::draw_background() {
   background.fill(k_paper);
-  std::string title = fmt::format("{}:  {}", title_of(trajectory), facts_text(trajectory));
-  if (speed != 1.0) title += fmt::format(",  {:.4g} × real time", speed);
+  std::string title = tumble::format("{}:  {}", title_of(trajectory), facts_text(trajectory));
+  if (speed != 1.0) title += tumble::format(",  {:.4g} × real time", speed);
   draw_text_within(background, panel.right() - k_left, {k_left, 18.0}, title, {k_text, k_muted});
   draw_axes(background, view, 10.0);
   background.clip(view.area);
@@ -169,7 +168,7 @@ void Animation::Parts::draw_impulse_legend(double left, double top) {
   sample.size = sample.along_normal = round_down_nicely(0.7 * largest);
   const double length = arrow_length(sample);
   draw_impulse(background, {left, top + 15.0}, sample, {length, 2.2, k_ink});
-  background.draw_text({left + length + 7.0, top + 15.0 + 0.36 * k_text}, fmt::format("{:.6g} N s", sample.size),
+  background.draw_text({left + length + 7.0, top + 15.0 + 0.36 * k_text}, tumble::format("{:.6g} N s", sample.size),
                        {k_text, k_muted});
   double y = top + 34.0;
   for (const ContactMode mode : {ContactMode::stick, ContactMode::slip_left, ContactMode::slip_right}) {
@@ -249,7 +248,7 @@ void Animation::Parts::draw_motion(int frame, std::size_t sample) {
 
 void Animation::Parts::draw_panel(std::size_t sample) {
   const double left = panel.left;
-  canvas.draw_text({left, panel.top + 14.0}, fmt::format("t = {:.{}f} s", trajectory.time[sample], time_decimals),
+  canvas.draw_text({left, panel.top + 14.0}, tumble::format("t = {:.{}f} s", trajectory.time[sample], time_decimals),
                    {17.0, k_ink, Align::left, true});
   canvas.draw_text({left, panel.top + 44.0}, "Energy", {k_text, k_ink, Align::left, true});
   const EnergyLedger& energy = trajectory.energy[sample];

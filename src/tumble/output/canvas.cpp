@@ -8,7 +8,8 @@
 
 #include <cairo-svg.h>
 #include <cairo.h>
-#include <fmt/format.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::output {
 namespace {
@@ -81,7 +82,7 @@ void Canvas::check() const {
   cairo_status_t status = cairo_status(context_);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface_);
   if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(fmt::format("cairo cannot draw: {}", cairo_status_to_string(status)));
+    throw std::runtime_error(tumble::format("cairo cannot draw: {}", cairo_status_to_string(status)));
   }
 }
 
@@ -205,7 +206,7 @@ std::string Canvas::to_png() {
   std::string bytes;
   const cairo_status_t status = cairo_surface_write_to_png_stream(surface_, append, &bytes);
   if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(fmt::format("cairo cannot make a png: {}", cairo_status_to_string(status)));
+    throw std::runtime_error(tumble::format("cairo cannot make a png: {}", cairo_status_to_string(status)));
   }
   return bytes;
 }
@@ -215,7 +216,7 @@ std::string Canvas::to_svg() {
   cairo_surface_finish(surface_);
   const cairo_status_t status = cairo_surface_status(surface_);
   if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(fmt::format("cairo cannot make an svg: {}", cairo_status_to_string(status)));
+    throw std::runtime_error(tumble::format("cairo cannot make an svg: {}", cairo_status_to_string(status)));
   }
   // cairo counts its surfaces: without the number the bytes depend on the drawing alone.
   constexpr std::string_view k_label = "id=\"surface";

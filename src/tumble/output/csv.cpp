@@ -4,8 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/output/csv_reader.hpp"
 #include "tumble/output/record_fields.hpp"
@@ -75,7 +74,7 @@ void parse_row(Row row, int k, Record& record) {
 std::string csv_header(const Record& record) {
   check_record(record);
   const Parameters& p = record.parameters;
-  return fmt::format(
+  return tumble::format(
       "{}\n# l = {} m\n# m = {} kg\n# mu = {}\n# eps = {}\n# dt = {} s\n# delta = {} m\n# g = {} m/s^2\n"
       "# columns = {}\n# rows = {}\n# status = {}\n{}\n",
       k_first_line, to_text(p.l), to_text(p.m), to_text(p.mu), to_text(p.eps), to_text(p.dt), to_text(p.delta),
@@ -86,12 +85,12 @@ std::string csv_rows(const Record& record, int first, int last) {
   std::string text;
   for (int k = first; k < last; ++k) {
     const StepRecord& step = record.steps[static_cast<std::size_t>(k)];
-    text += fmt::format("{},{}", k, to_text(k * record.parameters.dt));
+    text += tumble::format("{},{}", k, to_text(k * record.parameters.dt));
     const auto add = [&](double value) { text.append(",").append(to_text(value)); };
     for (const double value : record.trajectory.q_at(k)) add(value);
     for (const double value : record.trajectory.v_at(k)) add(value);
     add(step.gap);
-    text += fmt::format(",{}", step.corner);
+    text += tumble::format(",{}", step.corner);
     for (const double value : step.z) add(value);
     text.append(",").append(to_string(step.mode)).append(",").append(to_string(step.status));
     add(step.residual);
@@ -115,7 +114,7 @@ Record parse_record_csv(std::string_view text, const std::string& name) {
   record.parameters = parse_parameters(lines);
   const int rows = lines.whole("rows", 1, drop::k_max_columns);
   if (rows > record.parameters.columns) {
-    lines.refuse(1, fmt::format("rows: must be at most columns = {}, got {}", record.parameters.columns, rows));
+    lines.refuse(1, tumble::format("rows: must be at most columns = {}, got {}", record.parameters.columns, rows));
   }
   const std::vector<std::string> names = column_names(k_names);
   const auto columns = static_cast<std::size_t>(rows);
@@ -127,7 +126,7 @@ Record parse_record_csv(std::string_view text, const std::string& name) {
   record.trajectory.status = lines.word("status", k_lcp_statuses);
   lines.expect(k_names);
   for (int k = 0; k < rows; ++k) {
-    parse_row(Row(lines, names, lines.next(fmt::format("row {} of {}", k + 1, rows))), k, record);
+    parse_row(Row(lines, names, lines.next(tumble::format("row {} of {}", k + 1, rows))), k, record);
   }
   lines.expect_end(columns);
   return record;

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble::output {
 
@@ -67,14 +67,14 @@ class LineReader {
     const std::string_view text = value(name, "", column);
     const std::optional<Whole> parsed = parse_whole<Whole>(text);
     if (parsed && *parsed >= low && *parsed <= high) return *parsed;
-    refuse(column, fmt::format("{}: must be a whole number in [{}, {}], got {}", name, low, high, quoted(text)));
+    refuse(column, tumble::format("{}: must be a whole number in [{}, {}], got {}", name, low, high, quoted(text)));
   }
   template <class Enum, std::size_t n>
   Enum word(std::string_view name, const std::array<Enum, n>& values) {
     std::size_t column = 1;
     const std::string_view text = value(name, "", column);
     if (const auto found = find_by_name(values, text)) return *found;
-    refuse(column, fmt::format("{}: must be one of {}, got {}", name, names_of(values), quoted(text)));
+    refuse(column, tumble::format("{}: must be one of {}, got {}", name, names_of(values), quoted(text)));
   }
   bool yes_or_no(std::string_view name);
 
@@ -115,15 +115,15 @@ class Row {
     const Cell cell = next();
     const std::optional<Whole> value = parse_whole<Whole>(cell.text);
     if (value && *value >= low && *value <= high) return *value;
-    refuse(cell,
-           low == high ? fmt::format("must be {}", low) : fmt::format("must be a whole number in [{}, {}]", low, high));
+    refuse(cell, low == high ? tumble::format("must be {}", low)
+                             : tumble::format("must be a whole number in [{}, {}]", low, high));
   }
 
   template <class Enum, std::size_t n>
   Enum word(const std::array<Enum, n>& values) {
     const Cell cell = next();
     if (const auto found = find_by_name(values, cell.text)) return *found;
-    refuse(cell, fmt::format("must be one of {}", names_of(values)));
+    refuse(cell, tumble::format("must be one of {}", names_of(values)));
   }
 
   // The time `expected`, which `formula` explains, up to the last digits: that of another program may be a sum of

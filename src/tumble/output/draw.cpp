@@ -5,8 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble::output {
@@ -55,20 +54,20 @@ std::string facts_text(const Trajectory& trajectory) {
   for (const Body& body : scene.bodies) {
     if (body.kind == BodyKind::dynamic) dynamic.push_back(&body);
   }
-  std::string text = dynamic.size() == 1 ? fmt::format("m = {:.6g} kg,  ", dynamic[0]->mass)
-                                         : fmt::format("{} bodies,  ", dynamic.size());
+  std::string text = dynamic.size() == 1 ? tumble::format("m = {:.6g} kg,  ", dynamic[0]->mass)
+                                         : tumble::format("{} bodies,  ", dynamic.size());
   if (const std::optional<ContactLaw> law = only_law(scene)) {
-    text += fmt::format("μ = {:.6g},  ", law->friction);
-    if (law->static_friction != law->friction) text += fmt::format("static {:.6g},  ", law->static_friction);
-    text += fmt::format("ε = {:.6g},  ", law->restitution);
+    text += tumble::format("μ = {:.6g},  ", law->friction);
+    if (law->static_friction != law->friction) text += tumble::format("static {:.6g},  ", law->static_friction);
+    text += tumble::format("ε = {:.6g},  ", law->restitution);
   }
   const Vector2 g = scene.gravity;
   if (g.x != 0.0) {
-    text += fmt::format("g = ({:.6g}, {:.6g}) m/s²,  ", g.x, g.y);
+    text += tumble::format("g = ({:.6g}, {:.6g}) m/s²,  ", g.x, g.y);
   } else if (g != Scene{}.gravity) {
-    text += fmt::format("g = {:.6g} m/s²,  ", 0.0 - g.y);
+    text += tumble::format("g = {:.6g} m/s²,  ", 0.0 - g.y);
   }
-  return text + fmt::format("Δt = {:.6g} s", trajectory.step_size);
+  return text + tumble::format("Δt = {:.6g} s", trajectory.step_size);
 }
 
 int decimals_for(double largest, int low) {
@@ -93,14 +92,14 @@ void draw_axes(Canvas& canvas, const View& view, double text_size) {
 
   const double baseline = area.bottom() + 1.5 * text_size;
   for (const Tick& tick : x_axis.ticks) canvas.draw_text({tick.pixel, baseline}, tick.label, label);
-  canvas.draw_text({area.left + 0.5 * area.width, baseline + 1.5 * text_size}, fmt::format("x [{}]", x_axis.unit),
+  canvas.draw_text({area.left + 0.5 * area.width, baseline + 1.5 * text_size}, tumble::format("x [{}]", x_axis.unit),
                    label);
   label.align = Align::right;
   for (const Tick& tick : y_axis.ticks) {
     canvas.draw_text({area.left - 0.6 * text_size, tick.pixel + 0.36 * text_size}, tick.label, label);
   }
   label.align = Align::left;
-  canvas.draw_text({area.left - 2.6 * text_size, area.top - 0.8 * text_size}, fmt::format("y [{}]", y_axis.unit),
+  canvas.draw_text({area.left - 2.6 * text_size, area.top - 0.8 * text_size}, tumble::format("y [{}]", y_axis.unit),
                    label);
 }
 

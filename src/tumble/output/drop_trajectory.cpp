@@ -2,8 +2,7 @@
 
 #include <limits>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/record_fields.hpp"
 
 namespace tumble::output {
@@ -42,7 +41,7 @@ ContactRecord contact_of(const drop::Record& record, int column) {
 Scene drop_scene(const Vector3& q0, const Vector3& v0, const drop::Parameters& parameters) {
   const drop::Parameters& p = parameters;
   Scene scene;
-  scene.title = fmt::format("Drop of a square of side {:.6g} m", p.l);
+  scene.title = tumble::format("Drop of a square of side {:.6g} m", p.l);
   scene.materials = {{"default", {p.mu, p.mu, p.eps}}};
   scene.gravity = {0.0, -p.g};
   scene.step_size = p.dt;

@@ -9,10 +9,11 @@
 #include <system_error>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <pthread.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "tumble/math/format.hpp"
 
 namespace tumble::output {
 namespace {
@@ -20,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const char* action, const fs::path& path, int error) {
-  throw std::system_error(error, std::generic_category(), fmt::format("cannot {} {}", action, path_text(path)));
+  throw std::system_error(error, std::generic_category(), tumble::format("cannot {} {}", action, path_text(path)));
 }
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view why) {
-  throw std::invalid_argument(fmt::format("{}: {}", path_text(path), why));
+  throw std::invalid_argument(tumble::format("{}: {}", path_text(path), why));
 }
 
 struct Target {
@@ -82,13 +83,13 @@ void check(const fs::path& path, const Target& target, bool overwrite) {
   const fs::path folder = folder_of(target.path);
   struct stat info {};
   if (::stat(folder.c_str(), &info) != 0) {
-    refuse(path,
-           fmt::format("the folder {} cannot be used: {}", path_text(folder), std::generic_category().message(errno)));
+    refuse(path, tumble::format("the folder {} cannot be used: {}", path_text(folder),
+                                std::generic_category().message(errno)));
   }
-  if (!S_ISDIR(info.st_mode)) refuse(path, fmt::format("{} is not a folder", path_text(folder)));
+  if (!S_ISDIR(info.st_mode)) refuse(path, tumble::format("{} is not a folder", path_text(folder)));
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    refuse(path,
-           fmt::format("the folder {} is not writable: {}", path_text(folder), std::generic_category().message(errno)));
+    refuse(path, tumble::format("the folder {} is not writable: {}", path_text(folder),
+                                std::generic_category().message(errno)));
   }
 }
 
@@ -96,7 +97,7 @@ void check(const fs::path& path, const Target& target, bool overwrite) {
 // it. The name does not contain that of the target, which may already be as long as a name can be.
 fs::path temporary_name(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
-  return folder_of(target) / fmt::format(".tumble-{}-{}.tmp", ::getpid(), counter++);
+  return folder_of(target) / tumble::format(".tumble-{}-{}.tmp", ::getpid(), counter++);
 }
 
 }  // namespace
@@ -142,7 +143,7 @@ void OutputFile::open_unfinished() {
   // A file without a name is gone whatever ends the process. It is reached, and later named, by way of /proc.
   if (!has_temporary_name_ && ::access("/proc/self/fd", X_OK) == 0) {
     descriptor_ = ::open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-    working_path_ = fmt::format("/proc/{}/fd/{}", ::getpid(), descriptor_);
+    working_path_ = tumble::format("/proc/{}/fd/{}", ::getpid(), descriptor_);
     if (descriptor_ >= 0) return;
   }
   do {  // a file system that does not know such files
@@ -213,7 +214,7 @@ std::string read_file(const fs::path& path, std::size_t max_bytes) {
   } const closer{descriptor};
 
   const auto check_size = [&](std::size_t size) {
-    if (size > max_bytes) refuse(path, fmt::format("has more than {} bytes, the most that is read", max_bytes));
+    if (size > max_bytes) refuse(path, tumble::format("has more than {} bytes, the most that is read", max_bytes));
   };
   struct stat info {};
   if (::fstat(descriptor, &info) != 0) fail("read", path, errno);

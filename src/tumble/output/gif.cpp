@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gif_lib.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/animation.hpp"
 #include "tumble/output/draw.hpp"
 #include "tumble/output/draw_bodies.hpp"
@@ -224,7 +224,7 @@ class GifWriter {
  private:
   [[noreturn]] static void fail(int error) {
     const char* reason = GifErrorString(error);
-    throw std::runtime_error(fmt::format("giflib cannot write: {}", reason != nullptr ? reason : "unknown reason"));
+    throw std::runtime_error(tumble::format("giflib cannot write: {}", reason != nullptr ? reason : "unknown reason"));
   }
 
   void require(int result) const {

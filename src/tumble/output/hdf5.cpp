@@ -9,9 +9,9 @@
 #include <utility>
 #include <variant>
 
-#include <fmt/format.h>
 #include <hdf5.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/record_fields.hpp"
 #include "tumble/output/trajectory_fields.hpp"
 
@@ -68,7 +68,7 @@ class Handle {
 // ---- Writing ----
 
 void require(bool holds, std::string_view action) {
-  if (!holds) throw std::runtime_error(fmt::format("HDF5 cannot {}", action));
+  if (!holds) throw std::runtime_error(tumble::format("HDF5 cannot {}", action));
 }
 
 Handle made(hid_t id, Handle::Close close, std::string_view action) {
@@ -193,7 +193,7 @@ std::string to_hdf5(const std::vector<Field>& fields) {
 // ---- Reading ----
 
 [[noreturn]] void refuse(const std::string& place, std::string_view why) {
-  throw std::invalid_argument(fmt::format("{}: {}", place, why));
+  throw std::invalid_argument(tumble::format("{}: {}", place, why));
 }
 
 // A link that leaves the file is not followed: what is read must lie in the bytes that were given.
@@ -224,14 +224,14 @@ NumberArray read_dataset(hid_t file, const std::string& field, const std::string
 
   const Handle space(H5Dget_space(dataset), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space);
-  if (rank < 0 || rank > 2) refuse(place, fmt::format("must have at most two dimensions, got {}", rank));
+  if (rank < 0 || rank > 2) refuse(place, tumble::format("must have at most two dimensions, got {}", rank));
   std::array<hsize_t, 2> sizes{};
   if (H5Sget_simple_extent_dims(space, sizes.data(), nullptr) < 0) refuse(place, "has no size");
   NumberArray array;
   std::size_t values = 1;
   for (std::size_t i = 0; i < static_cast<std::size_t>(rank); ++i) {
     if (sizes[i] > max_values_read() || (sizes[i] > 0 && values > max_values_read() / sizes[i])) {
-      refuse(place, fmt::format("is too large: at most {} values are read", max_values_read()));
+      refuse(place, tumble::format("is too large: at most {} values are read", max_values_read()));
     }
     values *= sizes[i];
     array.shape.push_back(sizes[i]);
@@ -254,7 +254,7 @@ bool has_hdf5() { return true; }
 std::string hdf5_version() {
   unsigned major = 0, minor = 0, release = 0;
   H5get_libversion(&major, &minor, &release);
-  return fmt::format("{}.{}.{}", major, minor, release);
+  return tumble::format("{}.{}.{}", major, minor, release);
 }
 
 std::string to_hdf5(const drop::Record& record) { return to_hdf5(to_fields(record)); }
@@ -283,7 +283,7 @@ drop::Record parse_record_hdf5(std::string_view bytes, const std::string& name) 
     const Handle file(H5Fopen("record.h5", H5F_ACC_RDONLY, settings), H5Fclose);
     if (!file.is_valid()) refuse(name, "is not a whole HDF5 file; was it cut off?");
     for (const std::string& field : field_names_read()) {
-      if (is_inside(file, field)) fields[field] = read_dataset(file, field, fmt::format("{}: {}", name, field));
+      if (is_inside(file, field)) fields[field] = read_dataset(file, field, tumble::format("{}: {}", name, field));
     }
   }
   return from_fields(fields, name);

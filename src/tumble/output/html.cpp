@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
 #include <zlib.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/csv.hpp"
 #include "tumble/output/drop_trajectory.hpp"
 #include "tumble/output/trajectory_csv.hpp"
@@ -57,15 +57,15 @@ std::string escaped(std::string_view text) {
 }
 
 std::string script_of(const PageText& text) {
-  return fmt::format("<script type=\"text/plain\" class=\"tumble-file\" data-name=\"{}\">{}</script>",
-                     escaped(text.name), base64(zlib_stream(text.text)));
+  return tumble::format("<script type=\"text/plain\" class=\"tumble-file\" data-name=\"{}\">{}</script>",
+                        escaped(text.name), base64(zlib_stream(text.text)));
 }
 
 void check_size(const std::string& name, std::size_t size) {
   if (size <= k_max_page_text) return;
   throw std::invalid_argument(
-      fmt::format("a page for a browser holds at most {} MiB of {}, this run has more: take fewer samples",
-                  k_max_page_text >> 20, name));
+      tumble::format("a page for a browser holds at most {} MiB of {}, this run has more: take fewer samples",
+                     k_max_page_text >> 20, name));
 }
 
 // `rows(first, last)` as in the files; ends before it takes much more memory than a page may hold.
@@ -86,7 +86,7 @@ std::string with_title(std::string_view page, std::string_view title) {
   if (title.empty() || start == std::string_view::npos || end == std::string_view::npos || end < start) {
     return std::string(page);
   }
-  return fmt::format("{}{}{}", page.substr(0, start + k_start.size()), escaped(title), page.substr(end));
+  return tumble::format("{}{}{}", page.substr(0, start + k_start.size()), escaped(title), page.substr(end));
 }
 
 }  // namespace
@@ -94,9 +94,9 @@ std::string with_title(std::string_view page, std::string_view title) {
 void check_page(std::string_view page, const std::string& page_name) {
   const std::size_t first = page.find(k_page_marker);
   if (first != std::string_view::npos && page.find(k_page_marker, first + 1) == std::string_view::npos) return;
-  throw std::invalid_argument(fmt::format("{}: is no page for runs: the comment {} must stand in it once, and {}",
-                                          page_name, k_page_marker,
-                                          first == std::string_view::npos ? "is missing" : "stands there twice"));
+  throw std::invalid_argument(tumble::format("{}: is no page for runs: the comment {} must stand in it once, and {}",
+                                             page_name, k_page_marker,
+                                             first == std::string_view::npos ? "is missing" : "stands there twice"));
 }
 
 std::string fill_page(std::string_view page, const std::string& page_name, std::string_view title,

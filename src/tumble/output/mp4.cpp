@@ -13,12 +13,12 @@
 #include <vector>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/animation.hpp"
 #include "tumble/output/file.hpp"
 
@@ -31,7 +31,7 @@ constexpr const char* k_program = "ffmpeg";
 constexpr std::size_t k_kept_words = 4096;  // [bytes] of what ffmpeg says
 
 [[noreturn]] void fail(const char* action, int error) {
-  throw std::system_error(error, std::generic_category(), fmt::format("cannot {} {}", action, k_program));
+  throw std::system_error(error, std::generic_category(), tumble::format("cannot {} {}", action, k_program));
 }
 
 // The full name of the program, "" if it is not on the PATH.
@@ -40,7 +40,7 @@ std::string find_program() {
   std::string_view rest = path != nullptr ? path : "";
   while (!rest.empty()) {
     const std::size_t colon = std::min(rest.find(':'), rest.size());
-    const std::string candidate = fmt::format("{}/{}", rest.substr(0, colon), k_program);
+    const std::string candidate = tumble::format("{}/{}", rest.substr(0, colon), k_program);
     if (colon > 0 && ::access(candidate.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(candidate)) {
       return candidate;
     }
@@ -122,9 +122,9 @@ class Encoder {
     }
     const int status = wait();
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-    const std::string reason = WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
-                                                   : fmt::format("exit status {}", WEXITSTATUS(status));
-    throw std::runtime_error(fmt::format("ffmpeg failed ({}): {}", reason, last_line()));
+    const std::string reason = WIFSIGNALED(status) ? tumble::format("ended by signal {}", WTERMSIG(status))
+                                                   : tumble::format("exit status {}", WEXITSTATUS(status));
+    throw std::runtime_error(tumble::format("ffmpeg failed ({}): {}", reason, last_line()));
   }
 
  private:
@@ -222,7 +222,7 @@ void check_ffmpeg() {
 void write_mp4(const Trajectory& trajectory, const std::filesystem::path& path, int width, int height, double speed) {
   check_ffmpeg();
   Animation animation(trajectory, width, height, speed, k_max_mp4_frames);
-  const std::string rate = fmt::format("{}", std::lround(1.0 / k_frame_time));
+  const std::string rate = tumble::format("{}", std::lround(1.0 / k_frame_time));
   // "file:" keeps ffmpeg from reading a name such as "pipe:1" or "-y" as something else.
   Encoder encoder({"-nostdin",
                    "-hide_banner",
@@ -234,7 +234,7 @@ void write_mp4(const Trajectory& trajectory, const std::filesystem::path& path, 
                    "-pixel_format",
                    "bgr0",
                    "-video_size",
-                   fmt::format("{}x{}", width, height),
+                   tumble::format("{}x{}", width, height),
                    "-framerate",
                    rate,
                    "-i",

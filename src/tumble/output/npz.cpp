@@ -8,9 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/npy.hpp"
 #include "tumble/output/record_fields.hpp"
 #include "tumble/output/trajectory_fields.hpp"
@@ -67,7 +65,7 @@ struct NpyBody {
       texts.push_back(characters(value));
       width = std::max(width, texts.back().size());
     }
-    std::string bytes = npy_header(fmt::format("<U{}", width), shape);
+    std::string bytes = npy_header(tumble::format("<U{}", width), shape);
     for (std::vector<std::uint32_t>& text : texts) {
       text.resize(width, 0u);
       for (const std::uint32_t character : text) put_value<std::uint32_t, std::uint32_t>(bytes, character);
@@ -95,7 +93,7 @@ std::string to_npz(const std::vector<Field>& fields) {
 // ---- Reading ----
 
 [[noreturn]] void refuse(const std::string& place, std::string_view why) {
-  throw std::invalid_argument(fmt::format("{}: {}", place, why));
+  throw std::invalid_argument(tumble::format("{}: {}", place, why));
 }
 
 struct NpyHeader {
@@ -110,7 +108,7 @@ struct NpyHeader {
 // What follows "'key':" in the dictionary, up to `end`; nothing if the key is absent.
 std::optional<std::string_view> entry_of(std::string_view dictionary, std::string_view key, char end) {
   for (const char quote : {'\'', '"'}) {
-    const std::string quoted = fmt::format("{0}{1}{0}:", quote, key);
+    const std::string quoted = tumble::format("{0}{1}{0}:", quote, key);
     const std::size_t at = dictionary.find(quoted);
     if (at == std::string_view::npos) continue;
     const std::string_view rest = dictionary.substr(at + quoted.size());
@@ -142,7 +140,7 @@ void parse_shape(std::string_view text, NpyHeader& header, const std::string& pl
     const std::optional<std::size_t> size = parse_size(word);
     if (!size || header.shape.size() == 2) refuse(place, "must have at most two dimensions");
     if (*size > max_values_read() || (*size > 0 && header.values > max_values_read() / *size)) {
-      refuse(place, fmt::format("is too large: at most {} values are read", max_values_read()));
+      refuse(place, tumble::format("is too large: at most {} values are read", max_values_read()));
     }
     header.values *= *size;
     header.shape.push_back(*size);
@@ -197,15 +195,15 @@ NumberArray parse_npy(std::string_view bytes, const std::string& place) {
   if (!bytes.starts_with(k_magic) || bytes.size() < k_magic.size() + 6) refuse(place, "is not an npy array");
   const auto byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at])); };
   const std::size_t version = byte(6);
-  if (version < 1 || version > 3) refuse(place, fmt::format("has npy version {}, allowed are 1 to 3", version));
+  if (version < 1 || version > 3) refuse(place, tumble::format("has npy version {}, allowed are 1 to 3", version));
   const std::size_t start = version == 1 ? 10 : 12;
   const std::size_t size = byte(8) + (byte(9) << 8) + (version == 1 ? 0 : (byte(10) << 16) + (byte(11) << 24));
   if (size > k_max_header || bytes.size() - start < size) refuse(place, "its npy header is broken");
   const NpyHeader header = parse_dictionary(bytes.substr(start, size), place);
   const std::string_view body = bytes.substr(start + size);
   if (body.size() != header.values * header.width) {
-    refuse(place, fmt::format("must have {} bytes for shape ({}), got {}", header.values * header.width,
-                              fmt::join(header.shape, ", "), body.size()));
+    refuse(place, tumble::format("must have {} bytes for shape ({}), got {}", header.values * header.width,
+                                 tumble::join(header.shape, ", "), body.size()));
   }
   NumberArray array{header.shape, std::vector<double>(header.values)};
   const bool is_transposed = header.is_fortran && header.shape.size() == 2;
@@ -220,8 +218,8 @@ NumberArray parse_npy(std::string_view bytes, const std::string& place) {
 }  // namespace
 
 std::string npy_header(const std::string& descr, const std::vector<std::size_t>& shape) {
-  std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", descr,
-                                       fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+  std::string dictionary = tumble::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", descr,
+                                          tumble::join(shape, ", "), shape.size() == 1 ? "," : "");
   const std::size_t before = k_magic.size() + 4;
   const std::size_t used = before + dictionary.size() + 1;
   dictionary.append((k_alignment - used % k_alignment) % k_alignment, ' ');
@@ -247,7 +245,7 @@ drop::Record parse_record_npz(std::string_view bytes, const std::string& name) {
     if (!entry.name.ends_with(".npy")) continue;
     const std::string field = entry.name.substr(0, entry.name.size() - 4);
     if (std::find(wanted.begin(), wanted.end(), field) == wanted.end()) continue;
-    const std::string place = fmt::format("{}: {}", name, field);
+    const std::string place = tumble::format("{}: {}", name, field);
     if (fields.contains(field)) refuse(place, "is there twice");
     fields[field] = parse_npy(extract(entry, 8 * max_values_read() + k_max_header, name), place);
   }

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 
 namespace tumble::output {
@@ -53,7 +51,7 @@ class Reader {
   Reader(const std::map<std::string, NumberArray>& fields, const std::string& name) : fields_(fields), name_(name) {}
 
   [[noreturn]] void refuse(std::string_view field, std::string_view why) const {
-    throw std::invalid_argument(fmt::format("{}: {}: {}", name_, field, why));
+    throw std::invalid_argument(tumble::format("{}: {}: {}", name_, field, why));
   }
 
   bool has(const std::string& field) const { return fields_.contains(field); }
@@ -67,7 +65,7 @@ class Reader {
 
   double scalar(const std::string& field) const {
     const NumberArray& array = get(field);
-    if (array.values.size() != 1) refuse(field, fmt::format("must be one number, got {}", array.values.size()));
+    if (array.values.size() != 1) refuse(field, tumble::format("must be one number, got {}", array.values.size()));
     return array.values[0];
   }
 
@@ -78,15 +76,15 @@ class Reader {
     if (rows > 1) expected.insert(expected.begin(), rows);
     if (columns == 0 && array.shape.size() == expected.size()) expected.back() = array.shape.back();
     if (array.shape != expected) {
-      refuse(field,
-             fmt::format("must have shape ({}), got ({})", fmt::join(expected, ", "), fmt::join(array.shape, ", ")));
+      refuse(field, tumble::format("must have shape ({}), got ({})", tumble::join(expected, ", "),
+                                   tumble::join(array.shape, ", ")));
     }
     return array.values;
   }
 
   int code(std::string_view field, double value, int count) const {
     if (!(value >= 0.0 && value < count && value == std::floor(value))) {
-      refuse(field, fmt::format("must be a whole number in [0, {}], got {}", count - 1, value));
+      refuse(field, tumble::format("must be a whole number in [0, {}], got {}", count - 1, value));
     }
     return static_cast<int>(value);
   }
@@ -104,13 +102,13 @@ Parameters read_parameters(const Reader& reader, const std::string& name, std::s
     const double asked = reader.scalar("columns");
     parameters.columns = reader.code("columns", asked, drop::k_max_columns + 1);
     if (asked < static_cast<double>(columns)) {
-      reader.refuse("columns", fmt::format("must be at least the {} columns of q, got {}", columns, asked));
+      reader.refuse("columns", tumble::format("must be at least the {} columns of q, got {}", columns, asked));
     }
   }
   try {
     validate(parameters);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}: {}", name, error.what()));
+    throw std::invalid_argument(tumble::format("{}: {}", name, error.what()));
   }
   return parameters;
 }
@@ -119,7 +117,7 @@ void require_finite(const Reader& reader, const char* field, const std::vector<d
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
     reader.refuse(field,
-                  fmt::format("must be finite, got {} in row {}, column {}", values[i], i / columns, i % columns));
+                  tumble::format("must be finite, got {} in row {}, column {}", values[i], i / columns, i % columns));
   }
 }
 
@@ -142,7 +140,7 @@ std::vector<StepRecord> read_steps(const Reader& reader, std::size_t columns) {
     // The numbers of a failed step mean nothing and may be anything.
     if (step.status == LcpStatus::solved &&
         !(std::isfinite(step.gap) && all_finite(step.z) && std::isfinite(step.residual))) {
-      reader.refuse("gap, z, residual", fmt::format("must be finite where the status is solved, column {}", k));
+      reader.refuse("gap, z, residual", tumble::format("must be finite where the status is solved, column {}", k));
     }
   }
   return steps;
@@ -155,14 +153,14 @@ void check_record(const Record& record) {
   validate(record.parameters);
   if (record.trajectory.columns < 1 || record.trajectory.columns > record.parameters.columns) {
     throw std::invalid_argument(
-        fmt::format("record: trajectory.columns must be in [1, parameters.columns = {}], got {}",
-                    record.parameters.columns, record.trajectory.columns));
+        tumble::format("record: trajectory.columns must be in [1, parameters.columns = {}], got {}",
+                       record.parameters.columns, record.trajectory.columns));
   }
   if (record.trajectory.q.size() != 3 * columns || record.trajectory.v.size() != 3 * columns ||
       record.steps.size() != columns) {
-    throw std::invalid_argument(fmt::format("record: q and v must have 3 x {} values and steps {}, got {}, {} and {}",
-                                            columns, columns, record.trajectory.q.size(), record.trajectory.v.size(),
-                                            record.steps.size()));
+    throw std::invalid_argument(
+        tumble::format("record: q and v must have 3 x {} values and steps {}, got {}, {} and {}", columns, columns,
+                       record.trajectory.q.size(), record.trajectory.v.size(), record.steps.size()));
   }
 }
 
@@ -221,13 +219,13 @@ Record from_fields(const std::map<std::string, NumberArray>& fields, const std::
   const Reader reader(fields, name);
   if (reader.has("format_version") && reader.scalar("format_version") != k_format_version) {
     reader.refuse("format_version",
-                  fmt::format("must be {}, got {}", k_format_version, reader.scalar("format_version")));
+                  tumble::format("must be {}, got {}", k_format_version, reader.scalar("format_version")));
   }
   Record record;
   record.trajectory.q = reader.rows("q", 3, 0);
   const std::size_t columns = record.trajectory.q.size() / 3;
   if (columns < 1 || columns > drop::k_max_columns) {
-    reader.refuse("q", fmt::format("must have 1 to {} columns, got {}", drop::k_max_columns, columns));
+    reader.refuse("q", tumble::format("must have 1 to {} columns, got {}", drop::k_max_columns, columns));
   }
   record.trajectory.v = reader.rows("v", 3, columns);
   require_finite(reader, "q", record.trajectory.q, columns);

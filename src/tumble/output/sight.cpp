@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/trajectory_fields.hpp"
 #include "tumble/output/view.hpp"
 
@@ -78,7 +77,7 @@ class BodyBox {
 void require_drawable(double value, double low, const char* what) {
   if (std::abs(value) <= k_largest && value >= low) return;
   throw std::invalid_argument(
-      fmt::format("picture: {} must lie in [{:g}, {:g}] m, got {:g}", what, low, k_largest, value));
+      tumble::format("picture: {} must lie in [{:g}, {:g}] m, got {:g}", what, low, k_largest, value));
 }
 
 // What moves: everywhere, at the start, and the ends of some of the boxes.

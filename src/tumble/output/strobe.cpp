@@ -4,8 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/draw.hpp"
 #include "tumble/output/draw_bodies.hpp"
 
@@ -223,7 +222,7 @@ void draw_numbers(Canvas& canvas, const Show& show) {
     const Colour colour = colour_of(impact.mode);
     canvas.draw_disc(centre, k_radius, k_paper);
     canvas.draw_circle(centre, k_radius, {colour, 1.4});
-    canvas.draw_text({centre.x, centre.y + 4.1}, fmt::format("{}", i + 1), {11.5, colour, Align::centre, true});
+    canvas.draw_text({centre.x, centre.y + 4.1}, tumble::format("{}", i + 1), {11.5, colour, Align::centre, true});
   }
 }
 
@@ -301,10 +300,10 @@ void draw_pose_legend(Canvas& canvas, Panel& panel, const Show& show) {
   }
   draw_sample(canvas, panel.line(24.0, "start, t = 0"), start_style(colours));
   if (show.interval > 0.0) {
-    draw_sample(canvas, panel.line(24.0, fmt::format("every {:.6g} s, later is darker", show.interval)),
+    draw_sample(canvas, panel.line(24.0, tumble::format("every {:.6g} s, later is darker", show.interval)),
                 pose_style(colour_at(colours, 0.4)));
   }
-  draw_sample(canvas, panel.line(24.0, fmt::format("end, t = {:.6g} s", show.duration())), end_style(colours));
+  draw_sample(canvas, panel.line(24.0, tumble::format("end, t = {:.6g} s", show.duration())), end_style(colours));
   panel.skip(8.0);
 }
 
@@ -331,7 +330,7 @@ void draw_impulse_legend(Canvas& canvas, Panel& panel, const Show& show) {
   panel.skip(6.0);
   const double y = panel.baseline() + 8.0;
   draw_impulse(canvas, {panel.left(), y}, sample, {length, 2.4, k_ink});
-  canvas.draw_text({panel.left() + length + 8.0, y + 0.36 * k_text}, fmt::format("{:.6g} N s", sample.size),
+  canvas.draw_text({panel.left() + length + 8.0, y + 0.36 * k_text}, tumble::format("{:.6g} N s", sample.size),
                    {k_text, k_muted});
   panel.skip(22.0);
   for (const ContactMode mode : {ContactMode::stick, ContactMode::slip_left, ContactMode::slip_right}) {
@@ -339,7 +338,7 @@ void draw_impulse_legend(Canvas& canvas, Panel& panel, const Show& show) {
     canvas.draw_line({middle.x - 12.0, middle.y}, {middle.x + 12.0, middle.y}, {colour_of(mode), 3.0});
   }
   if (const std::optional<double> friction = only_friction(show)) {
-    const Point cone = panel.line(24.0, fmt::format("friction cone, μ = {:.6g}", *friction));
+    const Point cone = panel.line(24.0, tumble::format("friction cone, μ = {:.6g}", *friction));
     draw_cone(canvas, {cone.x, cone.y + 9.0}, {0.0, 1.0}, *friction, 18.0, 1.0);
   }
   panel.skip(8.0);
@@ -350,22 +349,22 @@ void draw_impact_table(Canvas& canvas, Panel& panel, const Show& show) {
   if (show.impacts.empty() || !panel.has_room(14.0 + 9.0 + 2.0 * k_row)) return;
   const double duration = show.duration();
   const auto time_text = [&](double t) {
-    return duration < 1e-2 || duration >= 1e4 ? fmt::format("{:.4g}", t)
-                                              : fmt::format("{:.{}f}", t, decimals_for(duration, 2));
+    return duration < 1e-2 || duration >= 1e4 ? tumble::format("{:.4g}", t)
+                                              : tumble::format("{:.{}f}", t, decimals_for(duration, 2));
   };
   panel.heading("Contacts");
-  const std::string counted = show.impacts.size() == 1 ? "" : fmt::format("{} ", show.impacts.size());
+  const std::string counted = show.impacts.size() == 1 ? "" : tumble::format("{} ", show.impacts.size());
   if (show.impacts.size() < show.touches.size()) {
-    panel.cells({{0.0, fmt::format("the {}largest of {}", counted, show.touches.size())}}, k_muted, Align::left);
+    panel.cells({{0.0, tumble::format("the {}largest of {}", counted, show.touches.size())}}, k_muted, Align::left);
   }
   panel.cells({{74.0, "t [s]"}, {168.0, "impulse [N s]"}}, k_muted, Align::right);
   for (std::size_t i = 0; i < show.impacts.size() && panel.has_room(k_row); ++i) {
     const Impulse& impact = show.impacts[i];
-    panel.cells({{74.0, time_text(start_of(impact, show))}, {168.0, fmt::format("{:#.3g}", impact.size)}}, k_ink,
+    panel.cells({{74.0, time_text(start_of(impact, show))}, {168.0, tumble::format("{:#.3g}", impact.size)}}, k_ink,
                 Align::right);
     const Colour colour = colour_of(impact.mode);
     const double baseline = panel.baseline();
-    canvas.draw_text({panel.left(), baseline}, fmt::format("{}", i + 1), {k_text - 0.5, colour, Align::left, true});
+    canvas.draw_text({panel.left(), baseline}, tumble::format("{}", i + 1), {k_text - 0.5, colour, Align::left, true});
     canvas.draw_text({panel.left() + 180.0, baseline}, to_string(impact.mode), {k_text - 0.5, colour});
   }
 }
@@ -374,7 +373,7 @@ void draw_impact_table(Canvas& canvas, Panel& panel, const Show& show) {
 std::string start_text(const Show& show) {
   if (show.bodies.moving().size() != 1) return "";
   const auto& [pose, v] = show.trajectory.bodies(0)[show.bodies.moving()[0]];
-  return fmt::format(
+  return tumble::format(
       "start: x = {:.4g} m, y = {:.4g} m, θ = {:.4g} rad,  vx = {:.4g} m/s, vy = {:.4g} m/s, ω = {:.4g} rad/s",
       pose.position.x, pose.position.y, pose.angle, v[0], v[1], v[2]);
 }

@@ -2,8 +2,7 @@
 
 #include <stdexcept>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/file.hpp"
 #include "tumble/output/hdf5.hpp"
 #include "tumble/output/npy.hpp"
@@ -47,12 +46,12 @@ void write_table(const Table& table, const std::filesystem::path& path, bool ove
 
 void check_table_writable(const std::filesystem::path& path, bool overwrite) {
   if (!is_table_name(path)) {
-    throw std::invalid_argument(fmt::format("{}: the name must end in .npz or .h5", path_text(path)));
+    throw std::invalid_argument(tumble::format("{}: the name must end in .npz or .h5", path_text(path)));
   }
   if (ending_of(path) == ".h5") check_hdf5();
   check_target(path, overwrite);
   if (is_direct_target(path) && ending_of(path) == ".h5") {
-    throw std::invalid_argument(fmt::format("{}: an .h5 can only be written to a regular file", path_text(path)));
+    throw std::invalid_argument(tumble::format("{}: an .h5 can only be written to a regular file", path_text(path)));
   }
 }
 

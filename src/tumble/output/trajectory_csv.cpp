@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/output/csv_reader.hpp"
 #include "tumble/output/trajectory_fields.hpp"
@@ -28,11 +27,11 @@ std::string cell(std::string_view word) {
   if (word.find_first_of(",\"") == std::string_view::npos) return std::string(word);
   std::string quoted;
   for (const char c : word) quoted.append(c == '"' ? 2 : 1, c);
-  return fmt::format("\"{}\"", quoted);
+  return tumble::format("\"{}\"", quoted);
 }
 
 std::string comments(const Trajectory& trajectory, std::string_view table) {
-  return fmt::format(
+  return tumble::format(
       "# tumble {} 1\n# title = {}\n# step_size = {} s\n# steps = {}\n# status = {}\n# residual = {}\n# complete = {}\n"
       "# created_energy = {} J\n",
       table, trajectory.scene.title, to_text(trajectory.step_size), trajectory.num_steps, to_string(trajectory.status),
@@ -41,12 +40,12 @@ std::string comments(const Trajectory& trajectory, std::string_view table) {
 
 std::string sample_columns(const Scene& scene) {
   std::string text = "t [s]";
-  for (const EnergyField& field : k_energy_fields) text += fmt::format(",{} [J]", field.name);
+  for (const EnergyField& field : k_energy_fields) text += tumble::format(",{} [J]", field.name);
   const std::vector<std::string> labels = body_labels(scene);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (scene.bodies[i].kind == BodyKind::fixed) continue;
     for (const char* column : {"x [m]", "y [m]", "angle [rad]", "vx [m/s]", "vy [m/s]", "omega [rad/s]"}) {
-      text.append(",").append(cell(fmt::format("{}.{}", labels[i], column)));
+      text.append(",").append(cell(tumble::format("{}.{}", labels[i], column)));
     }
   }
   return text;
@@ -55,7 +54,8 @@ std::string sample_columns(const Scene& scene) {
 std::string contact_columns() {
   std::string text(k_first_contact_columns);
   for (const ContactField& field : k_contact_fields) {
-    text += *field.unit == '\0' ? fmt::format(",{}", field.name) : fmt::format(",{} [{}]", field.name, field.unit);
+    text +=
+        *field.unit == '\0' ? tumble::format(",{}", field.name) : tumble::format(",{} [{}]", field.name, field.unit);
   }
   return text;
 }
@@ -80,10 +80,10 @@ Labels index_of_labels(const Scene& scene) {
 // All of `comments`, in its order.
 void parse_comments(LineReader& lines, Trajectory& trajectory) {
   lines.expect("# tumble samples 1");
-  lines.expect(fmt::format("# title = {}", trajectory.scene.title));
+  lines.expect(tumble::format("# title = {}", trajectory.scene.title));
   trajectory.step_size = lines.number("step_size", "s");
   if (!(trajectory.step_size > 0.0) || std::isinf(trajectory.step_size)) {
-    lines.refuse(1, fmt::format("step_size: must be finite and > 0, got {}", trajectory.step_size));
+    lines.refuse(1, tumble::format("step_size: must be finite and > 0, got {}", trajectory.step_size));
   }
   trajectory.num_steps = lines.whole("steps", std::int64_t{0}, static_cast<std::int64_t>(k_max_steps));
   trajectory.status = lines.word("status", k_lcp_statuses);
@@ -102,7 +102,7 @@ void parse_sample(Row row, Trajectory& trajectory) {
   const double t = row.number();
   const std::vector<double>& before = trajectory.time;
   if (before.empty() ? t != 0.0 : t <= before.back()) {
-    row.refuse(time, before.empty() ? "must be 0, the start" : fmt::format("must be > {}", before.back()));
+    row.refuse(time, before.empty() ? "must be 0, the start" : tumble::format("must be > {}", before.back()));
   }
   EnergyLedger energy;
   for (const EnergyField& field : k_energy_fields) energy.*field.member = row.number();
@@ -129,7 +129,7 @@ void parse_samples(LineReader& lines, Trajectory& trajectory) {
   lines.check_room("samples", static_cast<std::size_t>(count), names.size());
   lines.expect_columns(columns);
   for (std::int64_t k = 0; k < count; ++k) {
-    parse_sample(Row(lines, names, lines.next(fmt::format("sample {} of {}", k + 1, count))), trajectory);
+    parse_sample(Row(lines, names, lines.next(tumble::format("sample {} of {}", k + 1, count))), trajectory);
   }
   lines.expect_end(static_cast<std::size_t>(count));
 }
@@ -186,8 +186,8 @@ void parse_contacts(LineReader& lines, Trajectory& trajectory) {
 }  // namespace
 
 std::string samples_csv_header(const Trajectory& trajectory) {
-  return fmt::format("{}# samples = {}\n{}\n", comments(trajectory, "samples"), trajectory.time.size(),
-                     sample_columns(trajectory.scene));
+  return tumble::format("{}# samples = {}\n{}\n", comments(trajectory, "samples"), trajectory.time.size(),
+                        sample_columns(trajectory.scene));
 }
 
 std::string samples_csv_rows(const Trajectory& trajectory, std::size_t first, std::size_t last) {
@@ -220,9 +220,10 @@ std::string contacts_csv_rows(const Trajectory& trajectory, std::size_t first, s
     const std::string time = to_text(static_cast<double>(step.step) * trajectory.step_size);
     for (const ContactRecord& record : step.contacts) {
       const Contact& contact = record.contact;
-      text += fmt::format("{},{},{},{},{},{},{},{}", step.step, time, labels[static_cast<std::size_t>(contact.body_a)],
-                          labels[static_cast<std::size_t>(contact.body_b)], contact.part_a, contact.part_b,
-                          contact.feature, to_string(record.mode));
+      text +=
+          tumble::format("{},{},{},{},{},{},{},{}", step.step, time, labels[static_cast<std::size_t>(contact.body_a)],
+                         labels[static_cast<std::size_t>(contact.body_b)], contact.part_a, contact.part_b,
+                         contact.feature, to_string(record.mode));
       for (const Vector2 value : {contact.point_a, contact.point_b, contact.normal}) append(text, value);
       for (const ContactField& field : k_contact_fields) append(text, field.value(record));
       text += '\n';

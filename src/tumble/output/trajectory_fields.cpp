@@ -2,8 +2,7 @@
 
 #include <stdexcept>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/scene_toml.hpp"
 
 namespace tumble::output {
@@ -70,7 +69,7 @@ void add_contacts(const Trajectory& trajectory, std::vector<Field>& fields) {
   Numbers offsets = contact_offsets(trajectory);
   const auto N = static_cast<std::size_t>(offsets.back());
   const auto add_shaped = [&](const char* name, const char* unit, std::vector<std::size_t> shape, auto values) {
-    fields.push_back({fmt::format("contact_{}", name), unit, std::move(shape), std::move(values)});
+    fields.push_back({tumble::format("contact_{}", name), unit, std::move(shape), std::move(values)});
   };
   const auto add = [&](const char* name, const char* unit, auto values) {
     add_shaped(name, unit, {N}, std::move(values));
@@ -108,16 +107,16 @@ bool is_of_scene(const Contact& contact, const Scene& scene) {
 void check_trajectory(const Trajectory& trajectory) {
   const std::size_t T = trajectory.time.size(), B = trajectory.scene.bodies.size();
   if (T == 0 || trajectory.energy.size() != T || trajectory.states.size() != T * B) {
-    throw std::invalid_argument(
-        fmt::format("trajectory: must have one or more times, as many energies and {} states for each, got {} times, "
-                    "{} energies and "
-                    "{} states",
-                    B, T, trajectory.energy.size(), trajectory.states.size()));
+    throw std::invalid_argument(tumble::format(
+        "trajectory: must have one or more times, as many energies and {} states for each, got {} times, "
+        "{} energies and "
+        "{} states",
+        B, T, trajectory.energy.size(), trajectory.states.size()));
   }
   std::int64_t before = 0;
   for (const StepContacts& step : trajectory.contacts) {
     if (step.step <= before || step.step > trajectory.num_steps) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(tumble::format(
           "trajectory: contacts must be of steps in [1, {}], each later than the one before, got {} behind {}",
           trajectory.num_steps, step.step, before));
     }
@@ -125,7 +124,7 @@ void check_trajectory(const Trajectory& trajectory) {
     for (const ContactRecord& record : step.contacts) {
       if (is_of_scene(record.contact, trajectory.scene)) continue;
       throw std::invalid_argument(
-          fmt::format("trajectory: a contact of step {} is of no body of the scene", step.step));
+          tumble::format("trajectory: a contact of step {} is of no body of the scene", step.step));
     }
   }
 }

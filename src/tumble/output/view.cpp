@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble::output {
 namespace {
@@ -33,10 +33,10 @@ Axis make_axis(const AxisRange& range, int count, const std::string& unit, Place
   for (double i = first; i <= last; i += 1.0) {
     // 0.0 + turns -0 into 0.
     const double value = 0.0 + i * step;
-    axis.ticks.push_back(
-        {place(shift + value), is_plain ? fmt::format("{:.{}f}", value, decimals) : fmt::format("{:.6g}", value)});
+    axis.ticks.push_back({place(shift + value),
+                          is_plain ? tumble::format("{:.{}f}", value, decimals) : tumble::format("{:.6g}", value)});
   }
-  axis.unit = is_far ? fmt::format("{0} from {1:.12g} {0}", unit, base) : unit;
+  axis.unit = is_far ? tumble::format("{0} from {1:.12g} {0}", unit, base) : unit;
   return axis;
 }
 

@@ -8,8 +8,7 @@
 #include <string_view>
 #include <system_error>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/animation.hpp"
 #include "tumble/output/csv.hpp"
 #include "tumble/output/drop_trajectory.hpp"
@@ -67,7 +66,7 @@ std::string names_of(Formats formats, std::string_view mark) {
   std::string names;
   for (std::size_t i = 0; i < formats.size(); ++i) {
     const char* before = i == 0 ? "" : i + 1 == formats.size() ? " or " : ", ";
-    names += fmt::format("{}{}{}", before, mark, formats[i].name);
+    names += tumble::format("{}{}{}", before, mark, formats[i].name);
   }
   return names;
 }
@@ -76,7 +75,7 @@ std::string names_of(Formats formats, std::string_view mark) {
 const NamedFormat* find_by_ending(const std::filesystem::path& path, Formats formats) {
   const std::string name = in_lower_case(path.filename().string());
   for (const NamedFormat& format : formats) {
-    if (name.size() > format.name.size() + 1 && name.ends_with(fmt::format(".{}", format.name))) return &format;
+    if (name.size() > format.name.size() + 1 && name.ends_with(tumble::format(".{}", format.name))) return &format;
   }
   return nullptr;
 }
@@ -85,19 +84,19 @@ Format format_of(const std::filesystem::path& path, const WriteOptions& options,
   if (options.format.empty()) {
     const NamedFormat* found = find_by_ending(path, formats);
     if (found != nullptr) return found->format;
-    throw std::invalid_argument(fmt::format("{}: the name must end in {}", path_text(path), names_of(formats, ".")));
+    throw std::invalid_argument(tumble::format("{}: the name must end in {}", path_text(path), names_of(formats, ".")));
   }
   for (const NamedFormat& format : formats) {
     if (in_lower_case(options.format) == format.name) return format.format;
   }
   throw std::invalid_argument(
-      fmt::format("format: must be {}, got '{}'", names_of(formats, ""), path_text(options.format)));
+      tumble::format("format: must be {}, got '{}'", names_of(formats, ""), path_text(options.format)));
 }
 
 void check_size(const char* field, int value) {
   if (value == 0 || (value >= k_smallest_picture && value <= k_largest_picture)) return;
-  throw std::invalid_argument(fmt::format("{}: must be 0 (chosen for you) or in [{}, {}] px, got {}", field,
-                                          k_smallest_picture, k_largest_picture, value));
+  throw std::invalid_argument(tumble::format("{}: must be 0 (chosen for you) or in [{}, {}] px, got {}", field,
+                                             k_smallest_picture, k_largest_picture, value));
 }
 
 // That of the options, the format's own where they leave it open; one given side keeps the shape.
@@ -120,8 +119,8 @@ std::string read_page(const std::filesystem::path& path) {
   try {
     page = read_file(path, k_max_page_bytes);
   } catch (const std::system_error& error) {
-    throw std::runtime_error(fmt::format("page: an .html needs the page that shows it: {}; `make viewer` builds it",
-                                         path.empty() ? "none was named" : error.what()));
+    throw std::runtime_error(tumble::format("page: an .html needs the page that shows it: {}; `make viewer` builds it",
+                                            path.empty() ? "none was named" : error.what()));
   }
   check_page(page, path_text(path));
   return page;
@@ -138,11 +137,11 @@ void check_options(const std::filesystem::path& path, const WriteOptions& option
   const Size size = animation_size(options, format);
   for (const auto& [field, value] : {std::pair{"width", size.width}, std::pair{"height", size.height}}) {
     if (value % 2 != 0) {
-      throw std::invalid_argument(fmt::format("{}: must be even for an .mp4, got {} px", field, value));
+      throw std::invalid_argument(tumble::format("{}: must be even for an .mp4, got {} px", field, value));
     }
   }
   if (is_direct_target(path)) {
-    throw std::invalid_argument(fmt::format("{}: an .mp4 can only be written to a regular file", path_text(path)));
+    throw std::invalid_argument(tumble::format("{}: an .mp4 can only be written to a regular file", path_text(path)));
   }
 }
 
@@ -192,7 +191,7 @@ void write_film(const Trajectory& trajectory, const std::filesystem::path& path,
   try {
     write_mp4(trajectory, file.working_path(), size.width, size.height, options.speed);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(fmt::format("cannot write {}: {}", path_text(path), error.what()));
+    throw std::runtime_error(tumble::format("cannot write {}: {}", path_text(path), error.what()));
   }
   file.commit();
 }
@@ -280,7 +279,7 @@ drop::Record read_record(const std::filesystem::path& path) {
     return parse_record_npz(read_file(path, k_max_bytes_read), name);
   if (found != nullptr && found->format == Format::h5)
     return parse_record_hdf5(read_file(path, k_max_bytes_read), name);
-  throw std::invalid_argument(fmt::format("{}: a record is read from a .csv, .npz or .h5 file", name));
+  throw std::invalid_argument(tumble::format("{}: a record is read from a .csv, .npz or .h5 file", name));
 }
 
 }  // namespace tumble::output

@@ -5,9 +5,9 @@
 #include <new>
 #include <stdexcept>
 
-#include <fmt/format.h>
 #include <zlib.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/file.hpp"
 
 namespace tumble::output {
@@ -47,7 +47,7 @@ Unsigned get(std::string_view bytes, std::size_t at) {
 }
 
 [[noreturn]] void refuse(const std::string& name, std::string_view why) {
-  throw std::invalid_argument(fmt::format("{}: {}", name, why));
+  throw std::invalid_argument(tumble::format("{}: {}", name, why));
 }
 
 std::uint32_t crc_of(std::string_view bytes) {
@@ -104,12 +104,12 @@ std::size_t find_end_record(std::string_view archive, const std::string& name) {
 std::string_view entry_bytes(std::string_view archive, std::size_t offset, std::size_t size, const std::string& name) {
   if (offset > archive.size() || archive.size() - offset < k_local_bytes ||
       get<std::uint32_t>(archive, offset) != k_local_signature) {
-    refuse(name, fmt::format("the zip directory points to byte {}, where no entry is", offset));
+    refuse(name, tumble::format("the zip directory points to byte {}, where no entry is", offset));
   }
   const std::size_t start =
       offset + k_local_bytes + get<std::uint16_t>(archive, offset + 26) + get<std::uint16_t>(archive, offset + 28);
   if (start > archive.size() || archive.size() - start < size) {
-    refuse(name, fmt::format("the zip entry at byte {} reaches over the end of the file", offset));
+    refuse(name, tumble::format("the zip entry at byte {} reaches over the end of the file", offset));
   }
   return archive.substr(start, size);
 }
@@ -176,7 +176,7 @@ std::vector<ZipEntry> read_zip_directory(std::string_view archive, const std::st
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (directory.size() - at < k_directory_bytes || get<std::uint32_t>(directory, at) != k_directory_signature) {
-      refuse(name, fmt::format("the zip directory announces {} entries and has {}", count, i));
+      refuse(name, tumble::format("the zip directory announces {} entries and has {}", count, i));
     }
     const std::size_t name_size = get<std::uint16_t>(directory, at + 28);
     const std::size_t skipped =
@@ -197,8 +197,8 @@ std::vector<ZipEntry> read_zip_directory(std::string_view archive, const std::st
 }
 
 std::string extract(const ZipEntry& entry, std::size_t max_bytes, const std::string& name) {
-  const std::string place = fmt::format("{}: {}", name, path_text(entry.name.substr(0, 60)));
-  if (entry.size > max_bytes) refuse(place, fmt::format("has {} bytes, at most {} are read", entry.size, max_bytes));
+  const std::string place = tumble::format("{}: {}", name, path_text(entry.name.substr(0, 60)));
+  if (entry.size > max_bytes) refuse(place, tumble::format("has {} bytes, at most {} are read", entry.size, max_bytes));
   std::string content;
   if (entry.method == k_stored) {
     if (entry.compressed.size() != entry.size) refuse(place, "the sizes of the stored entry disagree");
@@ -208,7 +208,7 @@ std::string extract(const ZipEntry& entry, std::size_t max_bytes, const std::str
     content.resize(entry.size);
     if (!inflate_bytes(entry.compressed, content)) refuse(place, "its compressed bytes are broken");
   } else {
-    refuse(place, fmt::format("is packed by method {}, only 0 (stored) and 8 (deflated) are read", entry.method));
+    refuse(place, tumble::format("is packed by method {}, only 0 (stored) and 8 (deflated) are read", entry.method));
   }
   if (crc_of(content) != entry.crc) refuse(place, "its bytes are damaged: the CRC differs");
   return content;

@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/limits.hpp"
 #include "tumble/scene/scene.hpp"
 
@@ -15,13 +14,13 @@ namespace tumble {
 // Throws std::invalid_argument "field: must be in [low, high] unit, got value unit". NaN is outside every range.
 inline void require_in(const Range& range, std::string_view field, double value) {
   if (value >= range.low && value <= range.high) return;
-  throw std::invalid_argument(fmt::format("{}: must be in [{}, {}]{}{}, got {}", field, range.low, range.high,
-                                          range.unit.empty() ? "" : " ", range.unit, value));
+  throw std::invalid_argument(tumble::format("{}: must be in [{}, {}]{}{}, got {}", field, range.low, range.high,
+                                             range.unit.empty() ? "" : " ", range.unit, value));
 }
 
 inline void require_count(std::string_view field, std::size_t count, std::size_t least, std::size_t most) {
   if (count >= least && count <= most) return;
-  throw std::invalid_argument(fmt::format("{}: must have {} to {} entries, got {}", field, least, most, count));
+  throw std::invalid_argument(tumble::format("{}: must have {} to {} entries, got {}", field, least, most, count));
 }
 
 // What one piece must hold by itself; messages name the field within it.

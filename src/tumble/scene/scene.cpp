@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/check.hpp"
 
 namespace tumble {
@@ -39,21 +38,22 @@ template <class Entry>
 void check_times(const std::string& field, const std::vector<Entry>& entries) {
   require_count(field, entries.size(), 0, k_max_table_entries);
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    require_in(k_time_range, fmt::format("{}[{}].time", field, i), entries[i].time);
+    require_in(k_time_range, tumble::format("{}[{}].time", field, i), entries[i].time);
     if (i == 0 || entries[i].time > entries[i - 1].time) continue;
-    refuse(fmt::format("{}[{}].time: must be later than {} s, that of the entry before, got {}", field, i,
-                       entries[i - 1].time, entries[i].time));
+    refuse(tumble::format("{}[{}].time: must be later than {} s, that of the entry before, got {}", field, i,
+                          entries[i - 1].time, entries[i].time));
   }
 }
 
 void check_part(const Part& part, BodyKind kind, std::size_t material_count) {
   check_at("shape.", [&] { validate(part.shape); });
   if (part.material < 0 || static_cast<std::size_t>(part.material) >= material_count) {
-    refuse(fmt::format("material: must be an index of one of the {} materials, got {}", material_count, part.material));
+    refuse(
+        tumble::format("material: must be an index of one of the {} materials, got {}", material_count, part.material));
   }
   require_in(k_speed_range, "surface_speed", part.surface_speed);
   if (std::holds_alternative<HalfPlane>(part.shape) && kind != BodyKind::fixed) {
-    refuse(fmt::format("shape: a half-plane must belong to a fixed body, got a {} one", to_string(kind)));
+    refuse(tumble::format("shape: a half-plane must belong to a fixed body, got a {} one", to_string(kind)));
   }
   if (std::holds_alternative<Terrain>(part.shape) && kind == BodyKind::dynamic) {
     refuse("shape: terrain must belong to a fixed or kinematic body, got a dynamic one");
@@ -61,7 +61,7 @@ void check_part(const Part& part, BodyKind kind, std::size_t material_count) {
 }
 
 void require_zero(bool is_zero, const char* field, const char* owner, BodyKind kind) {
-  if (!is_zero) refuse(fmt::format("{}: only {} have one, got it for a {} one", field, owner, to_string(kind)));
+  if (!is_zero) refuse(tumble::format("{}: only {} have one, got it for a {} one", field, owner, to_string(kind)));
 }
 
 // What the other kinds must not have: it would be ignored in silence.
@@ -84,15 +84,16 @@ void check_kind(const Body& body) {
   if (!is_at_rest) refuse("velocity: must be 0 for a body with motion, whose knots give it");
   const Pose& first = body.motion.front().pose;
   if (first.position != body.pose.position || first.angle != body.pose.angle) {
-    refuse(fmt::format("motion[0]: must be at the pose of the body, ({}, {}) m and {} rad, got ({}, {}) m and {} rad",
-                       body.pose.position.x, body.pose.position.y, body.pose.angle, first.position.x, first.position.y,
-                       first.angle));
+    refuse(tumble::format(
+        "motion[0]: must be at the pose of the body, ({}, {}) m and {} rad, got ({}, {}) m and {} rad",
+        body.pose.position.x, body.pose.position.y, body.pose.angle, first.position.x, first.position.y, first.angle));
   }
 }
 
 std::string place_of(const Scene& scene, std::size_t body) {
   const std::string& name = scene.bodies[body].name;
-  return fmt::format("bodies[{}]{}", body, name.empty() || !is_plain_text(name) ? "" : fmt::format(" '{}'", name));
+  return tumble::format("bodies[{}]{}", body,
+                        name.empty() || !is_plain_text(name) ? "" : tumble::format(" '{}'", name));
 }
 
 // Throws for two equal names; empty ones do not count. `name(i)` is that of entry i.
@@ -105,8 +106,8 @@ void check_unique(const char* field, std::size_t count, NameOf name) {
   std::sort(names.begin(), names.end());
   for (std::size_t i = 1; i < names.size(); ++i) {
     if (names[i].first != names[i - 1].first) continue;
-    refuse(fmt::format("{0}[{1}].name: must differ from that of {0}[{2}], got '{3}' twice", field, names[i].second,
-                       names[i - 1].second, names[i].first));
+    refuse(tumble::format("{0}[{1}].name: must differ from that of {0}[{2}], got '{3}' twice", field, names[i].second,
+                          names[i - 1].second, names[i].first));
   }
 }
 
@@ -114,7 +115,7 @@ void check_materials(const Scene& scene) {
   require_count("materials", scene.materials.size(), 0, k_max_materials);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
-    check_at(fmt::format("materials[{}].", i), [&] {
+    check_at(tumble::format("materials[{}].", i), [&] {
       if (material.name.empty()) refuse("name: must not be empty");
       check_name("name", material.name, k_max_name_bytes);
       check_law(material.law);
@@ -130,13 +131,13 @@ void check_pairs(const Scene& scene) {
   std::vector<std::pair<int, int>> seen;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const MaterialPair& pair = scene.pairs[i];
-    check_at(fmt::format("pairs[{}].", i), [&] {
+    check_at(tumble::format("pairs[{}].", i), [&] {
       for (const auto& [field, index] : {std::pair{"a", pair.a}, std::pair{"b", pair.b}}) {
         if (index < 0 || index >= count) {
-          refuse(fmt::format("{}: must be an index of one of the {} materials, got {}", field, count, index));
+          refuse(tumble::format("{}: must be an index of one of the {} materials, got {}", field, count, index));
         }
       }
-      if (pair.a == pair.b) refuse(fmt::format("b: must be another material than a, got {} twice", pair.a));
+      if (pair.a == pair.b) refuse(tumble::format("b: must be another material than a, got {} twice", pair.a));
       check_law(pair.law);
     });
     seen.push_back(std::minmax({pair.a, pair.b}));
@@ -144,9 +145,9 @@ void check_pairs(const Scene& scene) {
   std::sort(seen.begin(), seen.end());
   const auto twice = std::adjacent_find(seen.begin(), seen.end());
   if (twice != seen.end()) {
-    refuse(fmt::format("pairs: must name two materials once, got '{}' and '{}' twice",
-                       scene.materials[static_cast<std::size_t>(twice->first)].name,
-                       scene.materials[static_cast<std::size_t>(twice->second)].name));
+    refuse(tumble::format("pairs: must name two materials once, got '{}' and '{}' twice",
+                          scene.materials[static_cast<std::size_t>(twice->first)].name,
+                          scene.materials[static_cast<std::size_t>(twice->second)].name));
   }
 }
 
@@ -197,16 +198,17 @@ bool is_plain_text(std::string_view text) {
 
 void check_name(std::string_view field, std::string_view name, std::size_t max_bytes) {
   if (name.size() > max_bytes) {
-    refuse(fmt::format("{}: must have at most {} bytes, got {}", field, max_bytes, name.size()));
+    refuse(tumble::format("{}: must have at most {} bytes, got {}", field, max_bytes, name.size()));
   }
-  if (!is_plain_text(name)) refuse(fmt::format("{}: must be UTF-8 without control characters", field));
+  if (!is_plain_text(name)) refuse(tumble::format("{}: must be UTF-8 without control characters", field));
 }
 
 void check_law(const ContactLaw& law) {
   require_in(k_friction_range, "friction", law.friction);
   require_in(k_friction_range, "static_friction", law.static_friction);
   if (law.static_friction < law.friction) {
-    refuse(fmt::format("static_friction: must be >= friction, which is {}, got {}", law.friction, law.static_friction));
+    refuse(
+        tumble::format("static_friction: must be >= friction, which is {}, got {}", law.friction, law.static_friction));
   }
   require_in(k_restitution_range, "restitution", law.restitution);
 }
@@ -215,7 +217,7 @@ void check_body(const Body& body, std::size_t material_count) {
   check_name("name", body.name, k_max_name_bytes);
   require_count("parts", body.parts.size(), 1, k_max_parts);
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
-    check_at(fmt::format("parts[{}].", i), [&] { check_part(body.parts[i], body.kind, material_count); });
+    check_at(tumble::format("parts[{}].", i), [&] { check_part(body.parts[i], body.kind, material_count); });
   }
   check_pose("pose", body.pose);
   require_in(k_speed_range, "velocity[0]", body.velocity[0]);
@@ -223,12 +225,12 @@ void check_body(const Body& body, std::size_t material_count) {
   require_in(k_angular_velocity_range, "velocity[2]", body.velocity[2]);
   check_times("motion", body.motion);
   for (std::size_t i = 0; i < body.motion.size(); ++i) {
-    check_pose(fmt::format("motion[{}].pose", i), body.motion[i].pose);
+    check_pose(tumble::format("motion[{}].pose", i), body.motion[i].pose);
   }
   check_times("wrenches", body.wrenches);
   for (std::size_t i = 0; i < body.wrenches.size(); ++i) {
-    require_vector_in(k_force_range, fmt::format("wrenches[{}].force", i), body.wrenches[i].force);
-    require_in(k_torque_range, fmt::format("wrenches[{}].torque", i), body.wrenches[i].torque);
+    require_vector_in(k_force_range, tumble::format("wrenches[{}].force", i), body.wrenches[i].force);
+    require_in(k_torque_range, tumble::format("wrenches[{}].torque", i), body.wrenches[i].torque);
   }
   require_in(k_damping_range, "linear_damping", body.linear_damping);
   require_in(k_damping_range, "angular_damping", body.angular_damping);
@@ -241,7 +243,7 @@ std::vector<std::string> body_labels(const Scene& scene) {
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     std::string label = scene.bodies[i].name;
-    if (label.empty()) label = fmt::format("body{}", i);
+    if (label.empty()) label = tumble::format("body{}", i);
     while (scene.bodies[i].name.empty() && taken.contains(label)) label += '_';
     labels.push_back(std::move(label));
   }
@@ -260,7 +262,7 @@ void validate(const Scene& scene) {
     try {
       check_body(scene.bodies[i], scene.materials.size());
     } catch (const std::invalid_argument& error) {
-      refuse(fmt::format("{}: {}", place_of(scene, i), error.what()));
+      refuse(tumble::format("{}: {}", place_of(scene, i), error.what()));
     }
   }
   check_unique("bodies", scene.bodies.size(),
@@ -275,7 +277,7 @@ MassProperties mass_properties(const std::vector<Part>& parts, double density) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     moments.push_back(area_moments(parts[i].shape));
     if (!(moments.back().area > 0.0)) {
-      refuse(fmt::format("parts[{}].shape: must have an area to get a mass from a density, got one without", i));
+      refuse(tumble::format("parts[{}].shape: must have an area to get a mass from a density, got one without", i));
     }
     sum.mass += density * moments.back().area;
   }

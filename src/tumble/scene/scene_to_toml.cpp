@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/scene/scene_toml.hpp"
 
@@ -16,7 +15,7 @@ namespace {
 // Keeps the sign of zero, which the integer -0 would lose.
 std::string number(double value) { return value == 0.0 && std::signbit(value) ? "-0.0" : to_text(value); }
 
-std::string vector(Vector2 v) { return fmt::format("[{}, {}]", number(v.x), number(v.y)); }
+std::string vector(Vector2 v) { return tumble::format("[{}, {}]", number(v.x), number(v.y)); }
 
 std::string points(const std::vector<Vector2>& list) {
   std::string text = "[";
@@ -54,8 +53,9 @@ std::string pose_text(const Pose& pose) {
 // The table of the shape, and what stands beside it.
 std::string shape_text(const RoundedPolygon& polygon) {
   const std::vector<Vector2>& vertices = polygon.vertices;
-  if (vertices.size() == 1) return fmt::format("{{ disc = {} }}", number(polygon.rounding)) + pose_text({vertices[0]});
-  if (vertices.size() == 2 && polygon.rounding == 0.0) return fmt::format("{{ segment = {} }}", points(vertices));
+  if (vertices.size() == 1)
+    return tumble::format("{{ disc = {} }}", number(polygon.rounding)) + pose_text({vertices[0]});
+  if (vertices.size() == 2 && polygon.rounding == 0.0) return tumble::format("{{ segment = {} }}", points(vertices));
   const std::string rounding = is_zero(polygon.rounding) ? "" : ", rounding = " + number(polygon.rounding);
   if (vertices.size() == 4) {
     // Short where the short form gives the same bits.
@@ -64,22 +64,22 @@ std::string shape_text(const RoundedPolygon& polygon) {
     const double x = width / 2.0 - polygon.rounding;
     const double y = height / 2.0 - polygon.rounding;
     if (x > 0.0 && y > 0.0 && vertices == std::vector<Vector2>{{-x, -y}, {x, -y}, {x, y}, {-x, y}}) {
-      return fmt::format("{{ rectangle = {}{} }}", vector({width, height}), rounding);
+      return tumble::format("{{ rectangle = {}{} }}", vector({width, height}), rounding);
     }
   }
-  return fmt::format("{{ polygon = {}{} }}", points(vertices), rounding);
+  return tumble::format("{{ polygon = {}{} }}", points(vertices), rounding);
 }
 
 std::string shape_text(const Ellipse& ellipse) {
-  return fmt::format("{{ ellipse = {} }}", vector({ellipse.semi_axis_x, ellipse.semi_axis_y})) +
+  return tumble::format("{{ ellipse = {} }}", vector({ellipse.semi_axis_x, ellipse.semi_axis_y})) +
          pose_text(ellipse.pose);
 }
 
 std::string shape_text(const HalfPlane& half_plane) {
-  return fmt::format("{{ half_plane = {}, offset = {} }}", vector(half_plane.normal), number(half_plane.offset));
+  return tumble::format("{{ half_plane = {}, offset = {} }}", vector(half_plane.normal), number(half_plane.offset));
 }
 
-std::string shape_text(const Terrain& terrain) { return fmt::format("{{ terrain = {} }}", points(terrain.points)); }
+std::string shape_text(const Terrain& terrain) { return tumble::format("{{ terrain = {} }}", points(terrain.points)); }
 
 std::string part_text(const Scene& scene, const Part& part) {
   std::string text = "{ shape = " + std::visit([](const auto& shape) { return shape_text(shape); }, part.shape);
@@ -89,44 +89,44 @@ std::string part_text(const Scene& scene, const Part& part) {
 }
 
 std::string law_text(const ContactLaw& law) {
-  return fmt::format("friction = {}\nstatic_friction = {}\nrestitution = {}\n", number(law.friction),
-                     number(law.static_friction), number(law.restitution));
+  return tumble::format("friction = {}\nstatic_friction = {}\nrestitution = {}\n", number(law.friction),
+                        number(law.static_friction), number(law.restitution));
 }
 
 void write_line(std::string& text, std::string_view field, double value) {
-  if (!is_zero(value)) text += fmt::format("{} = {}\n", field, number(value));
+  if (!is_zero(value)) text += tumble::format("{} = {}\n", field, number(value));
 }
 
 std::string body_text(const Scene& scene, const Body& body) {
   std::string text = "\n[[bodies]]\n";
-  if (!body.name.empty()) text += fmt::format("name = {}\n", quoted(body.name));
-  text += fmt::format("kind = \"{}\"\n", to_string(body.kind));
+  if (!body.name.empty()) text += tumble::format("name = {}\n", quoted(body.name));
+  text += tumble::format("kind = \"{}\"\n", to_string(body.kind));
   if (body.kind == BodyKind::dynamic) {
-    text += fmt::format("mass = {}\nmoment_of_inertia = {}\ncentre_of_mass = [0, 0]\n", number(body.mass),
-                        number(body.moment_of_inertia));
+    text += tumble::format("mass = {}\nmoment_of_inertia = {}\ncentre_of_mass = [0, 0]\n", number(body.mass),
+                           number(body.moment_of_inertia));
   }
-  text += fmt::format("position = {}\n", vector(body.pose.position));
+  text += tumble::format("position = {}\n", vector(body.pose.position));
   write_line(text, "angle", body.pose.angle);
   const Vector2 velocity{body.velocity[0], body.velocity[1]};
-  if (!is_zero(velocity)) text += fmt::format("velocity = {}\n", vector(velocity));
+  if (!is_zero(velocity)) text += tumble::format("velocity = {}\n", vector(velocity));
   write_line(text, "angular_velocity", body.velocity[2]);
   write_line(text, "linear_damping", body.linear_damping);
   write_line(text, "angular_damping", body.angular_damping);
   // Lists in brackets: a header per part or knot would make reading quadratic in the number of bodies.
   const auto write_list = [&](std::string_view field, const auto& entries, auto entry_text) {
     if (entries.empty()) return;
-    text += fmt::format("{} = [\n", field);
+    text += tumble::format("{} = [\n", field);
     for (const auto& entry : entries) text += "  " + entry_text(entry) + ",\n";
     text += "]\n";
   };
   write_list("parts", body.parts, [&](const Part& part) { return part_text(scene, part); });
   write_list("motion", body.motion, [](const Knot& knot) {
-    return fmt::format("{{ time = {}, position = {}, angle = {} }}", number(knot.time), vector(knot.pose.position),
-                       number(knot.pose.angle));
+    return tumble::format("{{ time = {}, position = {}, angle = {} }}", number(knot.time), vector(knot.pose.position),
+                          number(knot.pose.angle));
   });
   write_list("wrenches", body.wrenches, [](const Wrench& wrench) {
-    return fmt::format("{{ time = {}, force = {}, torque = {} }}", number(wrench.time), vector(wrench.force),
-                       number(wrench.torque));
+    return tumble::format("{{ time = {}, force = {}, torque = {} }}", number(wrench.time), vector(wrench.force),
+                          number(wrench.torque));
   });
   return text;
 }
@@ -136,15 +136,15 @@ std::string body_text(const Scene& scene, const Body& body) {
 std::string to_toml(const Scene& scene) {
   validate(scene);
   std::string text = "tumble = 1\n";
-  if (!scene.title.empty()) text += fmt::format("title = {}\n", quoted(scene.title));
-  text += fmt::format("gravity = {}\nstep_size = {}\nduration = {}\n", vector(scene.gravity), number(scene.step_size),
-                      number(scene.duration));
+  if (!scene.title.empty()) text += tumble::format("title = {}\n", quoted(scene.title));
+  text += tumble::format("gravity = {}\nstep_size = {}\nduration = {}\n", vector(scene.gravity),
+                         number(scene.step_size), number(scene.duration));
   for (const Material& material : scene.materials) {
-    text += fmt::format("\n[materials.{}]\n{}", key(material.name), law_text(material.law));
+    text += tumble::format("\n[materials.{}]\n{}", key(material.name), law_text(material.law));
   }
   for (const MaterialPair& pair : scene.pairs) {
     const auto name = [&](int index) { return quoted(scene.materials[static_cast<std::size_t>(index)].name); };
-    text += fmt::format("\n[[pairs]]\nmaterials = [{}, {}]\n{}", name(pair.a), name(pair.b), law_text(pair.law));
+    text += tumble::format("\n[[pairs]]\nmaterials = [{}, {}]\n{}", name(pair.a), name(pair.b), law_text(pair.law));
   }
   for (const Body& body : scene.bodies) text += body_text(scene, body);
   return text;

@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/check.hpp"
 #include "tumble/scene/toml_reader.hpp"
 
@@ -55,16 +54,16 @@ Shape read_shape(const Value& table) {
   std::string key;
   for (const auto& [word, value] : table.entries()) {
     if (word == "rounding" || word == "offset") continue;
-    if (!key.empty()) value.refuse_with(fmt::format("must not stand beside {}: a shape is one thing", key));
+    if (!key.empty()) value.refuse_with(tumble::format("must not stand beside {}: a shape is one thing", key));
     key = word;
   }
   if (key.empty()) table.refuse_with("must say what it is, like { square = 0.2 }");
   const std::optional<Value> rounding = table.find("rounding");
   if (rounding && key != "square" && key != "rectangle" && key != "regular" && key != "polygon") {
-    rounding->refuse_with(fmt::format("only square, rectangle, regular and polygon have one, got it for {}", key));
+    rounding->refuse_with(tumble::format("only square, rectangle, regular and polygon have one, got it for {}", key));
   }
   const std::optional<Value> offset = table.find("offset");
-  if (offset && key != "half_plane") offset->refuse_with(fmt::format("only half_plane has one, got it for {}", key));
+  if (offset && key != "half_plane") offset->refuse_with(tumble::format("only half_plane has one, got it for {}", key));
   const double width = rounding ? rounding->number(k_rounding_range) : 0.0;
   return table.checked([&] {
     Shape shape = build_shape(table, key, width);
@@ -102,14 +101,15 @@ BodyKind read_kind(const Value& table) {
     if (word == to_string(kind)) return kind;
     words.push_back(to_string(kind));
   }
-  value->refuse_with(fmt::format("must be the kind of a body, got {}{}", shown(word), suggestion(word, words)));
+  value->refuse_with(tumble::format("must be the kind of a body, got {}{}", shown(word), suggestion(word, words)));
 }
 
 void refuse_keys(const Value& table, std::initializer_list<std::string_view> keys, std::string_view owners,
                  BodyKind kind) {
   for (const std::string_view key : keys) {
     const std::optional<Value> value = table.find(key);
-    if (value) value->refuse_with(fmt::format("only {} bodies have one, got it for a {} one", owners, to_string(kind)));
+    if (value)
+      value->refuse_with(tumble::format("only {} bodies have one, got it for a {} one", owners, to_string(kind)));
   }
 }
 
@@ -149,8 +149,8 @@ template <class Entry>
 void check_later(const Value& value, const std::vector<Entry>& entries) {
   const std::size_t n = entries.size();
   if (n < 2 || entries[n - 1].time > entries[n - 2].time) return;
-  value.refuse_with(fmt::format("time: must be later than {} s, that of the entry before, got {}", entries[n - 2].time,
-                                entries[n - 1].time));
+  value.refuse_with(tumble::format("time: must be later than {} s, that of the entry before, got {}",
+                                   entries[n - 2].time, entries[n - 1].time));
 }
 
 void read_motion(const Value& table, Body& body) {
@@ -252,7 +252,7 @@ class SceneReader {
       table.checked([&] { check_name("", key, k_max_name_bytes); }, "");
       table.allow_keys({"friction", "static_friction", "restitution"});
       if (scene_.materials.size() == k_max_materials) {
-        table.refuse_with(fmt::format("at most {} materials are read", k_max_materials));
+        table.refuse_with(tumble::format("at most {} materials are read", k_max_materials));
       }
       add_material(name, read_law(table, {}));
     }
@@ -264,7 +264,7 @@ class SceneReader {
     if (found != material_index_.end()) return found->second;
     std::vector<std::string_view> names;
     for (const Material& material : scene_.materials) names.push_back(material.name);
-    value.refuse_with(fmt::format("must be the name of a material, got {}{}", shown(name), suggestion(name, names)));
+    value.refuse_with(tumble::format("must be the name of a material, got {}{}", shown(name), suggestion(name, names)));
   }
 
   void read_pairs(const Value& root) {
@@ -354,7 +354,7 @@ class SceneReader {
     const Row outer = rows.size() < 2 ? Row{} : rows[1];
     const std::size_t count = inner.count * outer.count;  // below 1e10
     if (count > k_max_bodies - scene_.bodies.size()) {
-      table.refuse_with(fmt::format("a scene has at most {} bodies", k_max_bodies));
+      table.refuse_with(tumble::format("a scene has at most {} bodies", k_max_bodies));
     }
     count_entries(table, (count - 1) * (entries_ - entries_before));
     for (std::size_t k = 0; k < count; ++k) {
@@ -365,7 +365,7 @@ class SceneReader {
         if (!copy.name.empty()) copy.name += std::to_string(k + 1);
       }
       if (!copy.name.empty() && !body_names_.insert(copy.name).second) {
-        table.refuse_with(fmt::format("name: must differ from those before, got {}", shown(copy.name)));
+        table.refuse_with(tumble::format("name: must differ from those before, got {}", shown(copy.name)));
       }
       scene_.bodies.push_back(std::move(copy));
     }
@@ -375,7 +375,8 @@ class SceneReader {
   void count_entries(const Value& value, std::size_t entries) {
     entries_ += entries;
     if (entries_ <= k_max_entries) return;
-    value.refuse_with(fmt::format("a scene has at most {} vertices, points, parts, knots and wrenches", k_max_entries));
+    value.refuse_with(
+        tumble::format("a scene has at most {} vertices, points, parts, knots and wrenches", k_max_entries));
   }
 
   Scene scene_;

@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/check.hpp"
 
 namespace tumble {
@@ -25,8 +24,8 @@ constexpr double k_least_edge = 1e-9;
 
 void check_points(const char* field, const std::vector<Vector2>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    require_in(k_coordinate_range, fmt::format("{}[{}].x", field, i), points[i].x);
-    require_in(k_coordinate_range, fmt::format("{}[{}].y", field, i), points[i].y);
+    require_in(k_coordinate_range, tumble::format("{}[{}].x", field, i), points[i].x);
+    require_in(k_coordinate_range, tumble::format("{}[{}].y", field, i), points[i].y);
   }
 }
 
@@ -42,8 +41,8 @@ void check_edges(const char* field, const std::vector<Vector2>& points, bool is_
   for (std::size_t i = 0; i + (is_closed ? 0 : 1) < n; ++i) {
     const std::size_t next = (i + 1) % n;
     if (length(points[next] - points[i]) > least) continue;
-    refuse(fmt::format("{0}[{1}]: must be farther than {2} m from {0}[{3}], got ({4}, {5})", field, next, least, i,
-                       points[next].x, points[next].y));
+    refuse(tumble::format("{0}[{1}]: must be farther than {2} m from {0}[{3}], got ({4}, {5})", field, next, least, i,
+                          points[next].x, points[next].y));
   }
 }
 
@@ -68,19 +67,19 @@ void check_convex(const std::vector<Vector2>& vertices) {
     const Vector2 after = vertices[(i + 1) % n] - vertices[i];
     const double turn = cross(before, after) / (length(before) * length(after));
     if (!(turn >= -k_least_turn)) {
-      refuse(
-          fmt::format("vertices[{}]: must be a convex corner, got a reflex one at ({}, {}); write a concave shape as "
-                      "several convex parts",
-                      i, vertices[i].x, vertices[i].y));
+      refuse(tumble::format(
+          "vertices[{}]: must be a convex corner, got a reflex one at ({}, {}); write a concave shape as "
+          "several convex parts",
+          i, vertices[i].x, vertices[i].y));
     }
     if (turn <= k_least_turn) {
-      refuse(fmt::format("vertices[{}]: must not lie on the line through its neighbours, got ({}, {}); leave it out", i,
-                         vertices[i].x, vertices[i].y));
+      refuse(tumble::format("vertices[{}]: must not lie on the line through its neighbours, got ({}, {}); leave it out",
+                            i, vertices[i].x, vertices[i].y));
     }
     const auto is_upper = [](Vector2 e) { return e.y > 0.0 || (e.y == 0.0 && e.x > 0.0); };
     rounds += !is_upper(before) && is_upper(after);
   }
-  if (rounds != 1) refuse(fmt::format("vertices: must go round once, got {} times: the edges cross", rounds));
+  if (rounds != 1) refuse(tumble::format("vertices: must go round once, got {} times: the edges cross", rounds));
 }
 
 void check(const RoundedPolygon& polygon) {
@@ -92,7 +91,7 @@ void check(const RoundedPolygon& polygon) {
   }
   if (polygon.vertices.size() == 1) return;
   if (polygon.rounding == 0.0 && largest_coordinate(polygon.vertices) < k_size_range.low) {
-    refuse(fmt::format("vertices: must reach {} m in x or y, got less", k_size_range.low));
+    refuse(tumble::format("vertices: must reach {} m in x or y, got less", k_size_range.low));
   }
   check_edges("vertices", polygon.vertices, polygon.vertices.size() > 2);
   if (polygon.vertices.size() > 2) check_convex(polygon.vertices);
@@ -110,16 +109,16 @@ void check(const Ellipse& ellipse) {
   check(ellipse.pose);
   const auto [shorter, longer] = std::minmax(ellipse.semi_axis_x, ellipse.semi_axis_y);
   if (longer > k_max_ellipse_ratio * shorter) {
-    refuse(fmt::format("semi_axis_x: must be within a factor {} of semi_axis_y, got {} m and {} m", k_max_ellipse_ratio,
-                       ellipse.semi_axis_x, ellipse.semi_axis_y));
+    refuse(tumble::format("semi_axis_x: must be within a factor {} of semi_axis_y, got {} m and {} m",
+                          k_max_ellipse_ratio, ellipse.semi_axis_x, ellipse.semi_axis_y));
   }
 }
 
 void check(const HalfPlane& half_plane) {
   const double size = length(half_plane.normal);
   if (!(std::abs(size - 1.0) <= k_unit_length_tolerance)) {
-    refuse(fmt::format("normal: must have length 1, got ({}, {}) of length {}", half_plane.normal.x,
-                       half_plane.normal.y, size));
+    refuse(tumble::format("normal: must have length 1, got ({}, {}) of length {}", half_plane.normal.x,
+                          half_plane.normal.y, size));
   }
   require_in(k_coordinate_range, "offset", half_plane.offset);
 }
@@ -134,7 +133,7 @@ void check(const Terrain& terrain) {
     const Vector2 after = points[i + 1] - points[i];
     if (dot(before, after) > 0.0) continue;
     if (std::abs(cross(before, after)) > k_least_turn * length(before) * length(after)) continue;
-    refuse(fmt::format("points[{}]: must not turn straight back, got ({}, {})", i, points[i].x, points[i].y));
+    refuse(tumble::format("points[{}]: must not turn straight back, got ({}, {})", i, points[i].x, points[i].y));
   }
 }
 
@@ -257,8 +256,8 @@ RoundedPolygon rectangle(double width, double height, double rounding) {
   require_in(k_size_range, "width", width);
   require_in(k_size_range, "height", height);
   if (!(rounding >= 0.0 && 2.0 * rounding <= std::min(width, height))) {
-    refuse(fmt::format("rounding: must be in [0, {}] m, half of the shorter side, got {}",
-                       std::min(width, height) / 2.0, rounding));
+    refuse(tumble::format("rounding: must be in [0, {}] m, half of the shorter side, got {}",
+                          std::min(width, height) / 2.0, rounding));
   }
   const double x = width / 2.0 - rounding;
   const double y = height / 2.0 - rounding;
@@ -283,11 +282,11 @@ RoundedPolygon square(double side, double rounding) {
 
 RoundedPolygon regular_polygon(int corners, double circumradius, double rounding) {
   if (corners < 3 || corners > static_cast<int>(k_max_vertices)) {
-    refuse(fmt::format("corners: must be in [3, {}], got {}", k_max_vertices, corners));
+    refuse(tumble::format("corners: must be in [3, {}], got {}", k_max_vertices, corners));
   }
   require_in(k_size_range, "circumradius", circumradius);
   if (!(rounding >= 0.0 && rounding < circumradius)) {
-    refuse(fmt::format("rounding: must be in [0, {}) m, the circumradius, got {}", circumradius, rounding));
+    refuse(tumble::format("rounding: must be in [0, {}) m, the circumradius, got {}", circumradius, rounding));
   }
   const double radius = circumradius - rounding;
   RoundedPolygon shape{std::vector<Vector2>(static_cast<std::size_t>(corners)), rounding};

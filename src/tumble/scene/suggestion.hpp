@@ -6,18 +6,17 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/check.hpp"
 
 namespace tumble {
 
 // A word of the user for a message: short, and without bytes that a terminal would act on.
 inline std::string shown(std::string_view word) {
-  if (word.size() <= 40 && is_plain_text(word)) return fmt::format("'{}'", word);
+  if (word.size() <= 40 && is_plain_text(word)) return tumble::format("'{}'", word);
   std::string text;
   for (const char c : word.substr(0, 40)) text += (c > 31 && c < 127) ? c : '?';
-  return fmt::format("'{}{}'", text, word.size() > 40 ? "..." : "");
+  return tumble::format("'{}{}'", text, word.size() > 40 ? "..." : "");
 }
 
 // Insertions, deletions and exchanges that make one word the other.
@@ -49,7 +48,7 @@ std::string suggestion(std::string_view word, const Words& words) {
       nearest = known;
     }
   }
-  if (!nearest.empty()) return fmt::format("; did you mean '{}'?", nearest);
+  if (!nearest.empty()) return tumble::format("; did you mean '{}'?", nearest);
   std::string list;
   for (const std::string_view known : words) {
     if (list.size() > 300) return "; allowed are " + list + ", ...";

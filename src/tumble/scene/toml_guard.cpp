@@ -2,8 +2,7 @@
 
 #include <stdexcept>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/scene/check.hpp"
 
 namespace tumble {
@@ -38,7 +37,7 @@ class Guard {
 
  private:
   [[noreturn]] void refuse(const std::string& why) const {
-    throw std::invalid_argument(fmt::format("{}:{}:{}: {}", name_, line_, column_, why));
+    throw std::invalid_argument(tumble::format("{}:{}:{}: {}", name_, line_, column_, why));
   }
 
   bool is_next(std::string_view word) const { return text_.substr(at_).starts_with(word); }
@@ -114,7 +113,7 @@ class Guard {
         break;
       default:
         if (c == '.' && ++key_parts_ > k_max_key_parts)
-          refuse(fmt::format("a key has at most {} parts", k_max_key_parts));
+          refuse(tumble::format("a key has at most {} parts", k_max_key_parts));
         has_text_ = true;
     }
     last_ = c;
@@ -125,12 +124,12 @@ class Guard {
     is_value_ = is_value;
     has_text_ = false;
     key_parts_ = 0;
-    if (++values_ > k_max_scene_values) refuse(fmt::format("at most {} values are read", k_max_scene_values));
+    if (++values_ > k_max_scene_values) refuse(tumble::format("at most {} values are read", k_max_scene_values));
   }
 
   void open(char bracket) {
     if (is_value_) {
-      if (has_text_) refuse(fmt::format("'{}' must not stand behind other text", bracket));
+      if (has_text_) refuse(tumble::format("'{}' must not stand behind other text", bracket));
       start(bracket == '[');
       brackets_ += bracket;
     } else if (bracket == '[' && brackets_ == "h" && last_ == '[') {
@@ -140,7 +139,7 @@ class Guard {
       start(false);
       brackets_ += 'h';
     } else {
-      refuse(fmt::format("'{}' must not stand in a key", bracket));
+      refuse(tumble::format("'{}' must not stand in a key", bracket));
     }
   }
 
@@ -170,7 +169,7 @@ class Guard {
 void guard_toml(std::string_view text, const std::string& name) {
   if (text.size() > k_max_scene_bytes) {
     throw std::invalid_argument(
-        fmt::format("{}:1:1: at most {} bytes are read, got {}", name, k_max_scene_bytes, text.size()));
+        tumble::format("{}:1:1: at most {} bytes are read, got {}", name, k_max_scene_bytes, text.size()));
   }
   Guard(text, name).check();
 }

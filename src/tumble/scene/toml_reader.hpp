@@ -12,8 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/math/numeric.hpp"
 #include "tumble/scene/check.hpp"
 #include "tumble/scene/suggestion.hpp"
@@ -29,8 +28,8 @@ struct PlacedError : std::invalid_argument {
 
 [[noreturn]] inline void refuse(const std::string& name, const toml::source_position& at, const std::string& why) {
   // Nodes without a place of their own stand on the first line.
-  throw PlacedError(fmt::format("{}:{}:{}: {}", name, std::max(at.line, toml::source_index{1}),
-                                std::max(at.column, toml::source_index{1}), why));
+  throw PlacedError(tumble::format("{}:{}:{}: {}", name, std::max(at.line, toml::source_index{1}),
+                                   std::max(at.column, toml::source_index{1}), why));
 }
 
 // Throws a PlacedError for text that is no TOML.
@@ -68,7 +67,7 @@ class Value {
     } catch (const std::invalid_argument& error) {
       message = error.what();
     }
-    refuse(*name_, node_->source().begin, path_.empty() ? message : fmt::format("{}{}{}", path_, joint, message));
+    refuse(*name_, node_->source().begin, path_.empty() ? message : tumble::format("{}{}{}", path_, joint, message));
   }
 
   double number(const Range& range) const {
@@ -81,7 +80,7 @@ class Value {
   std::int64_t integer(std::int64_t low, std::int64_t high) const {
     if (!node_->is_integer()) refuse_type("a whole number");
     const std::int64_t value = *node_->value<std::int64_t>();
-    if (value < low || value > high) refuse_with(fmt::format("must be in [{}, {}], got {}", low, high, value));
+    if (value < low || value > high) refuse_with(tumble::format("must be in [{}, {}], got {}", low, high, value));
     return value;
   }
 
@@ -98,7 +97,8 @@ class Value {
     }
     const std::string whole = text();
     const std::optional<double> value = parse_degrees(whole);
-    if (!value) refuse_with(fmt::format("must be a number in rad or a string like \"30 deg\", got {}", shown(whole)));
+    if (!value)
+      refuse_with(tumble::format("must be a number in rad or a string like \"30 deg\", got {}", shown(whole)));
     check_range(k_angle_range, *value);
     return *value;
   }
@@ -122,13 +122,13 @@ class Value {
     const toml::array* array = node_->as_array();
     if (array == nullptr) refuse_type("a list in brackets");
     if (array->size() < least || array->size() > most) {
-      refuse_with(least == most ? fmt::format("must have {} entries, got {}", least, array->size())
-                                : fmt::format("must have {} to {} entries, got {}", least, most, array->size()));
+      refuse_with(least == most ? tumble::format("must have {} entries, got {}", least, array->size())
+                                : tumble::format("must have {} to {} entries, got {}", least, most, array->size()));
     }
     std::vector<Value> entries;
     entries.reserve(array->size());
     for (std::size_t i = 0; i < array->size(); ++i) {
-      entries.emplace_back((*array)[i], fmt::format("{}[{}]", path_, i), *name_);
+      entries.emplace_back((*array)[i], tumble::format("{}[{}]", path_, i), *name_);
     }
     return entries;
   }
@@ -137,12 +137,12 @@ class Value {
   std::optional<Value> find(std::string_view key) const {
     const toml::node* found = table().get(key);
     if (found == nullptr) return std::nullopt;
-    return Value(*found, path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key), *name_);
+    return Value(*found, path_.empty() ? std::string(key) : tumble::format("{}.{}", path_, key), *name_);
   }
 
   Value at(std::string_view key) const {
     std::optional<Value> found = find(key);
-    if (!found) refuse_with(fmt::format("must have the key '{}'", key));
+    if (!found) refuse_with(tumble::format("must have the key '{}'", key));
     return *found;
   }
 
@@ -151,8 +151,8 @@ class Value {
     for (auto&& [key, value] : table()) {
       if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
       refuse(*name_, key.source().begin,
-             fmt::format("{}{}: unknown key{}", path_.empty() ? "" : path_ + ".", shown(key.str()),
-                         suggestion(key.str(), known)));
+             tumble::format("{}{}: unknown key{}", path_.empty() ? "" : path_ + ".", shown(key.str()),
+                            suggestion(key.str(), known)));
     }
   }
 
@@ -164,7 +164,7 @@ class Value {
       order.push_back({key.source().begin, result.size()});
       const std::string word(key.str());
       const std::string last = is_plain_text(word) ? word : shown(word);
-      result.push_back({word, Value(value, path_.empty() ? last : fmt::format("{}.{}", path_, last), *name_)});
+      result.push_back({word, Value(value, path_.empty() ? last : tumble::format("{}.{}", path_, last), *name_)});
     }
     std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
       return a.first.line != b.first.line ? a.first.line < b.first.line : a.first.column < b.first.column;
@@ -197,7 +197,7 @@ class Value {
 
  private:
   [[noreturn]] void refuse_type(std::string_view wanted) const {
-    refuse_with(fmt::format("must be {}, got {}", wanted, type_name()));
+    refuse_with(tumble::format("must be {}, got {}", wanted, type_name()));
   }
 
   std::string_view type_name() const {

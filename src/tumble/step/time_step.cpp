@@ -5,8 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/step/step_parts.hpp"
 
 namespace tumble {
@@ -28,15 +27,15 @@ bool is_finite(const BodyState& b) {
 
 void check(const Scene& scene, double step_size, const State& state) {
   if (!(std::isfinite(step_size) && step_size > 0.0)) {
-    throw std::invalid_argument(fmt::format("step_size: must be > 0 s, got {}", step_size));
+    throw std::invalid_argument(tumble::format("step_size: must be > 0 s, got {}", step_size));
   }
   if (state.bodies.size() != scene.bodies.size()) {
-    throw std::invalid_argument(fmt::format("state.bodies: must have one entry per body of the scene ({}), got {}",
-                                            scene.bodies.size(), state.bodies.size()));
+    throw std::invalid_argument(tumble::format("state.bodies: must have one entry per body of the scene ({}), got {}",
+                                               scene.bodies.size(), state.bodies.size()));
   }
   for (Index i = 0; i < state.bodies.size(); ++i) {
     if (is_finite(state.bodies[i])) continue;
-    throw std::invalid_argument(fmt::format("state.bodies[{}] ({}): must be finite", i, scene.bodies[i].name));
+    throw std::invalid_argument(tumble::format("state.bodies[{}] ({}): must be finite", i, scene.bodies[i].name));
   }
 }
 
@@ -242,7 +241,7 @@ StepWorkspace& StepWorkspace::operator=(StepWorkspace&&) noexcept = default;
 
 void validate(const StepSettings& settings) {
   if (settings.num_sweeps < 1) {
-    throw std::invalid_argument(fmt::format("num_sweeps: must be >= 1, got {}", settings.num_sweeps));
+    throw std::invalid_argument(tumble::format("num_sweeps: must be >= 1, got {}", settings.num_sweeps));
   }
 }
 

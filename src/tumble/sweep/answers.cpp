@@ -7,9 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "tumble/batch/parallel.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/sweep/chunk_file.hpp"
 #include "tumble/sweep/chunk_parts.hpp"
 #include "tumble/sweep/describe.hpp"
@@ -95,10 +94,10 @@ Answers answers_of(const Spec& spec, std::vector<Column> columns) {
   for (Column& column : answers.columns) {
     const auto found =
         std::find_if(columns.begin(), columns.end(), [&](const Column& other) { return other.name == column.name; });
-    if (found == columns.end()) throw std::invalid_argument(fmt::format("{}: is missing", column.name));
+    if (found == columns.end()) throw std::invalid_argument(tumble::format("{}: is missing", column.name));
     if (found->values.size() != num_instances(spec)) {
-      throw std::invalid_argument(fmt::format("{}: must have {} rows, as the spec has instances, has {}", column.name,
-                                              num_instances(spec), found->values.size()));
+      throw std::invalid_argument(tumble::format("{}: must have {} rows, as the spec has instances, has {}",
+                                                 column.name, num_instances(spec), found->values.size()));
     }
     column.values = std::move(found->values);
   }
@@ -130,7 +129,7 @@ Answers read_answers(const Chunks& chunks) {
       const std::vector<double> values = from_bytes(chunks.read(chunk, k_first_column_part + k), column.is_whole);
       if (values.size() != slice.count) {
         throw std::runtime_error(
-            fmt::format("chunk {}: {}: must have {} rows, has {}", chunk, column.name, slice.count, values.size()));
+            tumble::format("chunk {}: {}: must have {} rows, has {}", chunk, column.name, slice.count, values.size()));
       }
       std::copy(values.begin(), values.end(), column.values.begin() + static_cast<std::ptrdiff_t>(slice.first));
     }

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/draw.hpp"
 
 namespace tumble::sweep {
@@ -35,7 +34,7 @@ std::vector<Tick> logarithmic_ticks(const Scale& scale) {
           value > scale.high * (1.0 + 1e-9)) {
         continue;
       }
-      ticks.push_back({scale.to_pixel(value), fmt::format("{:.6g}", value)});
+      ticks.push_back({scale.to_pixel(value), tumble::format("{:.6g}", value)});
     }
   }
   return ticks;
@@ -48,7 +47,7 @@ output::Axis axis_of(const Scale& scale, double spacing, const std::string& unit
 }
 
 std::string label_with_unit(std::string_view label, const std::string& unit) {
-  return unit.empty() ? std::string(label) : fmt::format("{} [{}]", label, unit);
+  return unit.empty() ? std::string(label) : tumble::format("{} [{}]", label, unit);
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <stdexcept>
 
-#include <fmt/format.h>
 #include <zlib.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/file.hpp"
 
 namespace tumble::sweep {
@@ -42,7 +42,7 @@ class Reader {
     read({&crc, 1});
     if (crc != crc_of(bytes_of(head))) fail("is damaged: its head has another checksum");
     if (head[1] != id.fingerprint) fail("belongs to another sweep");
-    if (head[2] != id.chunk) fail(fmt::format("holds chunk {}", head[2]));
+    if (head[2] != id.chunk) fail(tumble::format("holds chunk {}", head[2]));
     std::uint64_t offset = (head.size() + 1) * sizeof(std::uint64_t);
     for (std::size_t k = k_fixed_words; k < head.size(); k += 2) {
       parts_.push_back({offset, head[k], head[k + 1]});
@@ -55,16 +55,16 @@ class Reader {
   std::size_t num_parts() const { return parts_.size(); }
 
   std::string part(std::size_t k) {
-    if (k >= parts_.size()) fail(fmt::format("has no part {}", k));
+    if (k >= parts_.size()) fail(tumble::format("has no part {}", k));
     std::string bytes(parts_[k].size, '\0');
     file_.seekg(static_cast<std::streamoff>(parts_[k].offset));
     if (!file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) fail("cannot be read");
-    if (crc_of(bytes) != parts_[k].crc) fail(fmt::format("is damaged: part {} has another checksum", k));
+    if (crc_of(bytes) != parts_[k].crc) fail(tumble::format("is damaged: part {} has another checksum", k));
     return bytes;
   }
 
   [[noreturn]] void fail(const std::string& why) const {
-    throw std::runtime_error(fmt::format("{}: {}", output::path_text(path_), why));
+    throw std::runtime_error(tumble::format("{}: {}", output::path_text(path_), why));
   }
 
  private:
@@ -128,7 +128,7 @@ std::optional<std::string> fault_of_chunk_file(const std::filesystem::path& path
   try {
     Reader reader(path, id);
     if (reader.num_parts() != num_parts)
-      reader.fail(fmt::format("has {} parts, not {}", reader.num_parts(), num_parts));
+      reader.fail(tumble::format("has {} parts, not {}", reader.num_parts(), num_parts));
     for (std::size_t k = 0; k < num_parts; ++k) static_cast<void>(reader.part(k));
   } catch (const std::runtime_error& error) {
     return error.what();

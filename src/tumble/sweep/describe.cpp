@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/sweep/plan.hpp"
 #include "tumble/sweep/slice.hpp"
 
@@ -34,18 +33,18 @@ struct SweptText {
   std::string operator()(const Constant&) const { return ""; }
   std::string operator()(const Grid& grid) const {
     const auto [low, high] = std::minmax_element(grid.values.begin(), grid.values.end());
-    return fmt::format("{:.6g} to {:.6g}{}, {} value{}", *low, *high, in_unit(unit), grid.values.size(),
-                       grid.values.size() == 1 ? "" : "s");
+    return tumble::format("{:.6g} to {:.6g}{}, {} value{}", *low, *high, in_unit(unit), grid.values.size(),
+                          grid.values.size() == 1 ? "" : "s");
   }
   std::string operator()(const Uniform& source) const {
-    return fmt::format("{:.6g} to {:.6g}{}, uniform", source.low, source.high, in_unit(unit));
+    return tumble::format("{:.6g} to {:.6g}{}, uniform", source.low, source.high, in_unit(unit));
   }
   std::string operator()(const Normal& source) const {
-    return fmt::format("{:.6g}{}, normal, standard deviation {:.6g}{}", source.mean, in_unit(unit), source.deviation,
-                       in_unit(unit));
+    return tumble::format("{:.6g}{}, normal, standard deviation {:.6g}{}", source.mean, in_unit(unit), source.deviation,
+                          in_unit(unit));
   }
   std::string operator()(const LogUniform& source) const {
-    return fmt::format("{:.6g} to {:.6g}{}, log-uniform", source.low, source.high, in_unit(unit));
+    return tumble::format("{:.6g} to {:.6g}{}, log-uniform", source.low, source.high, in_unit(unit));
   }
 
   const std::string& unit;
@@ -79,7 +78,8 @@ Facts facts_of(const Spec& spec) {
   Facts facts{spec.title, {}, spec.measures.rest_speed, false};
   for (const Quantity& quantity : spec.quantities) {
     if (!is_swept(quantity)) continue;
-    facts.swept.push_back(fmt::format("{}: {}", quantity.name, std::visit(SweptText{quantity.unit}, quantity.source)));
+    facts.swept.push_back(
+        tumble::format("{}: {}", quantity.name, std::visit(SweptText{quantity.unit}, quantity.source)));
     facts.is_drawn = facts.is_drawn || !is_grid(quantity);
   }
   return facts;

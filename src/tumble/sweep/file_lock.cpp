@@ -4,11 +4,11 @@
 #include <system_error>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tumble/math/format.hpp"
 #include "tumble/output/file.hpp"
 
 namespace tumble::sweep {
@@ -19,7 +19,7 @@ std::optional<FileLock> FileLock::try_lock(const std::filesystem::path& path, Ki
   const int descriptor = ::open(path.c_str(), (is_exclusive ? O_RDWR : O_RDONLY) | O_CLOEXEC);
   if (descriptor < 0) {
     if (errno == ENOENT) return std::nullopt;
-    throw std::system_error(errno, std::generic_category(), fmt::format("cannot lock {}", output::path_text(path)));
+    throw std::system_error(errno, std::generic_category(), tumble::format("cannot lock {}", output::path_text(path)));
   }
   FileLock lock(descriptor);
   int failure = 0;

@@ -7,8 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/file.hpp"
 #include "tumble/scene/limits.hpp"
 
@@ -24,13 +23,13 @@ constexpr std::array<const char*, 5> k_result_names = {k_columns_name, k_statist
                                                        k_picture_name};
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view why) {
-  throw std::invalid_argument(fmt::format("{}: {}", output::path_text(path), why));
+  throw std::invalid_argument(tumble::format("{}: {}", output::path_text(path), why));
 }
 
 void make_folder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw std::system_error(error, fmt::format("cannot make the folder {}", output::path_text(path)));
+  if (error) throw std::system_error(error, tumble::format("cannot make the folder {}", output::path_text(path)));
 }
 
 bool is_unused(const fs::path& path) {
@@ -63,7 +62,7 @@ void write_spec(const fs::path& path, const Spec& spec, bool overwrite) {
 void remove_results(const fs::path& path) {
   std::error_code error;
   fs::remove_all(path / k_chunks_name, error);
-  if (error) refuse(path / k_chunks_name, fmt::format("cannot be removed: {}", error.message()));
+  if (error) refuse(path / k_chunks_name, tumble::format("cannot be removed: {}", error.message()));
   for (const char* name : k_result_names) fs::remove(path / name);
 }
 
@@ -102,7 +101,8 @@ class Patience {
 
   void wait(const fs::path& path) const {
     if (std::chrono::steady_clock::now() >= end_) {
-      throw std::runtime_error(fmt::format("{}: another process is at work in this folder", output::path_text(path)));
+      throw std::runtime_error(
+          tumble::format("{}: another process is at work in this folder", output::path_text(path)));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -146,7 +146,7 @@ Folder Folder::open_for_helper(const fs::path& path) {
 }
 
 fs::path Folder::chunk_path(std::uint64_t chunk) const {
-  return path_ / k_chunks_name / fmt::format("{:06}.chunk", chunk);
+  return path_ / k_chunks_name / tumble::format("{:06}.chunk", chunk);
 }
 
 void Folder::remove() const {

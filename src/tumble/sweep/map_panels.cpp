@@ -6,8 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/draw.hpp"
 #include "tumble/sweep/chart.hpp"
 #include "tumble/sweep/panels.hpp"
@@ -183,8 +182,8 @@ void draw_measure_map(Canvas& canvas, const Area& area, const Statistics& statis
   const Layout& layout = statistics.layout();
   const Measure& m = layout.measures[measure];
   const Area chart = chart_in(area, k_legend);
-  const std::string unit = m.unit.empty() ? "" : fmt::format(" [{}]", m.unit);
-  draw_heading(canvas, area, fmt::format("Mean {}{}", words_of(m.name), unit));
+  const std::string unit = m.unit.empty() ? "" : tumble::format(" [{}]", m.unit);
+  draw_heading(canvas, area, tumble::format("Mean {}{}", words_of(m.name), unit));
   const Range range = means_of(statistics, measure);
   if (layout.axes.empty()) return draw_nothing(canvas, chart, "nothing is swept");
   if (!(range.low < range.high)) return draw_nothing(canvas, chart, "no instance has it");

@@ -6,8 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/draw.hpp"
 #include "tumble/sweep/chart.hpp"
 
@@ -59,8 +58,8 @@ void draw_share(Canvas& canvas, const Area& chart, const Scale& y, const Share& 
     canvas.draw_line({middle - cap, high}, {middle + cap, high}, ink);
   }
   const double percent = 100.0 * share.share;
-  std::string text = share.count == 0 ? "0" : percent < 0.1 ? "< 0.1 %" : fmt::format("{:.1f} %", percent);
-  if (is_narrow) text = fmt::format("{:.0f}", percent);
+  std::string text = share.count == 0 ? "0" : percent < 0.1 ? "< 0.1 %" : tumble::format("{:.1f} %", percent);
+  if (is_narrow) text = tumble::format("{:.0f}", percent);
   const double baseline = std::min(top, high) - 6.0;
   output::draw_text_within(canvas, 1.4 * width, {middle, baseline}, text,
                            {k_small_text + 0.5, output::k_ink, Align::centre, true});
@@ -187,13 +186,13 @@ void draw_histogram(Canvas& canvas, const Area& area, const Statistics& statisti
   const std::vector<double> counts = rebin(statistics.histogram(measure), edges, m.min, m.max, m.measure.is_whole);
   const double most = *std::max_element(counts.begin(), counts.end());
   const double percent = 100.0 / static_cast<double>(m.count);
-  const std::string unit = m.measure.unit.empty() ? "" : fmt::format(" {}", m.measure.unit);
-  std::string note = fmt::format("mean {:.3g}{}, median dashed, 90 % on the dark bar", m.mean, unit);
+  const std::string unit = m.measure.unit.empty() ? "" : tumble::format(" {}", m.measure.unit);
+  std::string note = tumble::format("mean {:.3g}{}, median dashed, 90 % on the dark bar", m.mean, unit);
   if (m.missing > 0) {
-    note += fmt::format("; {:.3g} % have none",
-                        100.0 * static_cast<double>(m.missing) / static_cast<double>(summary.solved));
+    note += tumble::format("; {:.3g} % have none",
+                           100.0 * static_cast<double>(m.missing) / static_cast<double>(summary.solved));
   }
-  if (is_cut) note += fmt::format("; all in {:.3g} to {:.3g}", m.min, m.max);
+  if (is_cut) note += tumble::format("; all in {:.3g} to {:.3g}", m.min, m.max);
   draw_heading(canvas, area, heading, note);
   const Scale x = scale_x(chart, edges.front(), edges.back()), y = scale_y(chart, 0.0, 1.06 * most * percent);
   draw_y_axis(canvas, chart, y, "share of each bar", "%");
@@ -215,8 +214,8 @@ void draw_histogram(Canvas& canvas, const Area& area, const Statistics& statisti
 void draw_fan(Canvas& canvas, const Area& area, const Fan& fan) {
   constexpr std::size_t k_most_lines = 24;
   const Area chart = chart_in(area);
-  draw_heading(canvas, area, fmt::format("{} over time", words_of(fan.name)),
-               fmt::format("{} instances of the sweep", fan.lines.size()));
+  draw_heading(canvas, area, tumble::format("{} over time", words_of(fan.name)),
+               tumble::format("{} instances of the sweep", fan.lines.size()));
   const std::vector<double> low = quantiles(fan, 0.05), high = quantiles(fan, 0.95);
   if (low.empty()) return draw_nothing(canvas, chart, "no instance was solved");
   double bottom = low[0], top = high[0];

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "tumble/batch/parallel.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/output/file.hpp"
 #include "tumble/output/table.hpp"
 #include "tumble/sweep/chunk_file.hpp"
@@ -21,8 +19,8 @@ namespace {
 void require_same(std::span<const Folder> folders) {
   for (const Folder& folder : folders) {
     if (folder.spec_fingerprint() == folders[0].spec_fingerprint()) continue;
-    throw std::invalid_argument(fmt::format("{}: holds another sweep than {}", output::path_text(folder.path()),
-                                            output::path_text(folders[0].path())));
+    throw std::invalid_argument(tumble::format("{}: holds another sweep than {}", output::path_text(folder.path()),
+                                               output::path_text(folders[0].path())));
   }
 }
 
@@ -30,8 +28,8 @@ void require_same(std::span<const Folder> folders) {
 std::string list_of(const std::vector<std::uint64_t>& numbers) {
   constexpr std::size_t most = 10;
   const std::span<const std::uint64_t> first(numbers.data(), std::min(numbers.size(), most));
-  return fmt::format("{}{}", fmt::join(first, ", "),
-                     numbers.size() > most ? fmt::format(" and {} more", numbers.size() - most) : "");
+  return tumble::format("{}{}", tumble::join(first, ", "),
+                        numbers.size() > most ? tumble::format(" and {} more", numbers.size() - most) : "");
 }
 
 // What the columns do not say: the spec, and the quantities that are the same for all.
@@ -77,14 +75,14 @@ Chunks::Chunks(std::span<const Folder> folders, int threads)
   for (std::size_t chunk = 0; chunk < paths_.size(); ++chunk) {
     if (!paths_[chunk].empty()) continue;
     if (!faults[chunk].empty()) {
-      throw std::runtime_error(fmt::format("{}; run the sweep or its shard again, which repairs it", faults[chunk]));
+      throw std::runtime_error(tumble::format("{}; run the sweep or its shard again, which repairs it", faults[chunk]));
     }
     missing.push_back(chunk);
   }
   if (missing.empty()) return;
-  throw std::runtime_error(fmt::format(
+  throw std::runtime_error(tumble::format(
       "{}: the sweep is not finished: of {} chunks, {} missing: {}", output::path_text(folders[0].path()),
-      paths_.size(), missing.size() == 1 ? "1 is" : fmt::format("{} are", missing.size()), list_of(missing)));
+      paths_.size(), missing.size() == 1 ? "1 is" : tumble::format("{} are", missing.size()), list_of(missing)));
 }
 
 std::string Chunks::read(std::uint64_t chunk, std::size_t part) const {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "tumble/drop/parameters.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/scene/scene_toml.hpp"
 #include "tumble/scene/toml_reader.hpp"
 #include "tumble/sweep/plan.hpp"
@@ -87,7 +88,7 @@ Grid read_list(const Value& value, const Range& range) {
 std::array<double, 2> read_ends(const Value& value, const Range& range) {
   const std::vector<Value> entries = value.list(2, 2);
   const std::array<double, 2> ends = {read_number(entries[0], range), read_number(entries[1], range)};
-  if (ends[0] > ends[1]) value.refuse_with(fmt::format("must be [low, high], got [{}, {}]", ends[0], ends[1]));
+  if (ends[0] > ends[1]) value.refuse_with(tumble::format("must be [low, high], got [{}, {}]", ends[0], ends[1]));
   return ends;
 }
 
@@ -106,12 +107,12 @@ Source read_source(const Value& value, const Range& range) {
   if (key == "normal") {
     const std::vector<Value> pair = entry.list(2, 2);
     const double deviation = read_number(pair[1], range);
-    if (deviation < 0.0) pair[1].refuse_with(fmt::format("a standard deviation must be >= 0, got {}", deviation));
+    if (deviation < 0.0) pair[1].refuse_with(tumble::format("a standard deviation must be >= 0, got {}", deviation));
     return Normal{read_number(pair[0], range), deviation};
   }
   const auto [low, high] = read_ends(entry, range);
   if (key == "uniform") return Uniform{low, high};
-  if (low <= 0.0) entry.refuse_with(fmt::format("must have a low end > 0, got {}", low));
+  if (low <= 0.0) entry.refuse_with(tumble::format("must have a low end > 0, got {}", low));
   return LogUniform{low, high};
 }
 
@@ -219,7 +220,7 @@ class SpecReader {
       known.push_back(name);
     }
     place.refuse_with(
-        fmt::format("must be a body of the scene that moves, got {}{}", shown(label), suggestion(label, known)));
+        tumble::format("must be a body of the scene that moves, got {}{}", shown(label), suggestion(label, known)));
   }
 
   void read_scene_quantities(const Value& root) {
@@ -259,7 +260,8 @@ class SpecReader {
       }
       known.push_back(materials[k].name);
     }
-    table.refuse_with(fmt::format("must be a material of the scene, got {}{}", shown(name), suggestion(name, known)));
+    table.refuse_with(
+        tumble::format("must be a material of the scene, got {}{}", shown(name), suggestion(name, known)));
   }
 
   // `movable` is the index of start values, `index` that of what is varied.
@@ -295,7 +297,7 @@ class SpecReader {
     if (!value) return;
     const std::string word = value->text();
     if (word != "columns" && word != "statistics") {
-      value->refuse_with(fmt::format("must be 'columns' or 'statistics', got {}", shown(word)));
+      value->refuse_with(tumble::format("must be 'columns' or 'statistics', got {}", shown(word)));
     }
     spec_.keep = word == "columns" ? Keep::columns : Keep::statistics;
   }
@@ -313,7 +315,7 @@ class SpecReader {
     const std::uint64_t usual_chunk = spec_.keep == Keep::columns || spec_.scene ? piece : 16 * piece;
     spec_.chunk = count_or(root, "chunk", 1, k_max_chunk, usual_chunk);
     if (spec_.samples > 1 && std::none_of(spec_.quantities.begin(), spec_.quantities.end(), is_drawn)) {
-      root.at("samples").refuse_with(fmt::format(
+      root.at("samples").refuse_with(tumble::format(
           "must be 1 where nothing is drawn (uniform, normal, log_uniform), as all would be the same; got {}",
           spec_.samples));
     }
@@ -325,21 +327,22 @@ class SpecReader {
     for (const Axis& axis : axes_of(spec_)) {
       if (cells > k_max_instances / axis.values.size()) {
         root.refuse_with(
-            fmt::format("{}: the axes must have at most {} cells, as a sweep has at most so many instances", axis.name,
-                        k_max_instances));
+            tumble::format("{}: the axes must have at most {} cells, as a sweep has at most so many instances",
+                           axis.name, k_max_instances));
       }
       cells *= axis.values.size();
     }
     if (spec_.samples > k_max_instances / cells) {
       root.at("samples").refuse_with(
-          fmt::format("must be at most {} for {} cells, as a sweep has at most {} instances; got {}",
-                      k_max_instances / cells, cells, k_max_instances, spec_.samples));
+          tumble::format("must be at most {} for {} cells, as a sweep has at most {} instances; got {}",
+                         k_max_instances / cells, cells, k_max_instances, spec_.samples));
     }
     const std::uint64_t instances = spec_.samples * cells;
     const std::uint64_t least = (instances - 1) / k_max_chunks + 1;
     if (spec_.chunk >= least) return;
-    const std::string why = fmt::format("must be at least {} for {} instances, got {}: a sweep has at most {} chunks",
-                                        least, instances, spec_.chunk, k_max_chunks);
+    const std::string why =
+        tumble::format("must be at least {} for {} instances, got {}: a sweep has at most {} chunks", least, instances,
+                       spec_.chunk, k_max_chunks);
     if (const auto chunk = root.find("chunk")) chunk->refuse_with(why);
     root.refuse_with("chunk: " + why);
   }

@@ -6,10 +6,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "tumble/batch/simulate_batch.hpp"
 #include "tumble/math/exp_log.hpp"
+#include "tumble/math/format.hpp"
 
 namespace tumble::sweep {
 namespace {
@@ -18,10 +17,10 @@ constexpr std::size_t k_outside = std::numeric_limits<std::size_t>::max();
 
 const std::vector<double>& need(std::span<const Column> columns, const std::string& name, std::size_t rows) {
   const Column* column = find_column(columns, name);
-  if (column == nullptr) throw std::invalid_argument(fmt::format("columns: '{}' is missing", name));
+  if (column == nullptr) throw std::invalid_argument(tumble::format("columns: '{}' is missing", name));
   if (column->values.size() != rows) {
     throw std::invalid_argument(
-        fmt::format("{}: must have {} rows like the first column, has {}", name, rows, column->values.size()));
+        tumble::format("{}: must have {} rows like the first column, has {}", name, rows, column->values.size()));
   }
   return column->values;
 }
@@ -32,10 +31,10 @@ Outcome outcome_of(double status, double face, double rest_time) {
   if (status == static_cast<double>(batch::DropStatus::invalid)) return Outcome::invalid;
   if (status == static_cast<double>(batch::DropStatus::numerical)) return Outcome::numerical;
   if (status != static_cast<double>(batch::DropStatus::solved)) {
-    throw std::invalid_argument(fmt::format("status: must be 0, 1 or 2, got {}", status));
+    throw std::invalid_argument(tumble::format("status: must be 0, 1 or 2, got {}", status));
   }
   if (!(face == 0.0 || face == 1.0 || face == 2.0 || face == 3.0)) {
-    throw std::invalid_argument(fmt::format("face: must be 0, 1, 2 or 3 of what was solved, got {}", face));
+    throw std::invalid_argument(tumble::format("face: must be 0, 1, 2 or 3 of what was solved, got {}", face));
   }
   return std::isnan(rest_time) ? Outcome::moving : static_cast<Outcome>(static_cast<int>(face));
 }
@@ -150,7 +149,7 @@ Statistics::Statistics(Layout layout)
       cell_outcomes_(layout_.num_cells()),
       cell_sums_(layout_.num_cells() * layout_.measures.size()) {
   if (layout_.axes.size() > 2) {
-    throw std::invalid_argument(fmt::format("axes: a map has one or two, got {}", layout_.axes.size()));
+    throw std::invalid_argument(tumble::format("axes: a map has one or two, got {}", layout_.axes.size()));
   }
 }
 

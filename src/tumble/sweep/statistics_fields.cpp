@@ -1,10 +1,10 @@
 // Statistics as arrays of a file, and back.
+#include <algorithm>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/sweep/statistics.hpp"
 
 namespace tumble::sweep {
@@ -22,13 +22,13 @@ class Reader {
     for (const Field& field : fields_) {
       if (field.name != name) continue;
       const auto* values = std::get_if<std::vector<T>>(&field.values);
-      if (values == nullptr) throw std::invalid_argument(fmt::format("{}: has numbers of another type", name));
+      if (values == nullptr) throw std::invalid_argument(tumble::format("{}: has numbers of another type", name));
       if (size >= 0 && values->size() != static_cast<std::size_t>(size)) {
-        throw std::invalid_argument(fmt::format("{}: must have {} entries, has {}", name, size, values->size()));
+        throw std::invalid_argument(tumble::format("{}: must have {} entries, has {}", name, size, values->size()));
       }
       return *values;
     }
-    throw std::invalid_argument(fmt::format("{}: is missing", name));
+    throw std::invalid_argument(tumble::format("{}: is missing", name));
   }
 
  private:
@@ -57,7 +57,7 @@ void read_histogram(Histogram& histogram, const std::int32_t* bins, const std::i
   histogram.counts.assign(counts, counts + size);
   for (std::size_t i = 0; i < size; ++i) {
     const bool is_good = std::abs(bins[i]) <= k_last_bin && (i == 0 || bins[i - 1] < bins[i]) && counts[i] > 0;
-    if (!is_good) throw std::invalid_argument(fmt::format("statistics_bin: entry {} is damaged", i));
+    if (!is_good) throw std::invalid_argument(tumble::format("statistics_bin: entry {} is damaged", i));
   }
 }
 
@@ -122,7 +122,7 @@ Statistics Statistics::from_fields(Layout layout, std::span<const Field> fields)
   std::size_t next = 0;
   for (std::size_t m = 0; m < sizes.size(); ++m) {
     if (sizes[m] < 0 || static_cast<std::size_t>(sizes[m]) > bins.size() - next) {
-      throw std::invalid_argument(fmt::format("statistics_bins: entry {} is damaged", m));
+      throw std::invalid_argument(tumble::format("statistics_bins: entry {} is damaged", m));
     }
     const auto size = static_cast<std::size_t>(sizes[m]);
     read_histogram(result.histograms_[m], bins.data() + next, counts.data() + next, size);
@@ -138,7 +138,7 @@ Statistics Statistics::from_fields(Layout layout, std::span<const Field> fields)
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const auto cell = static_cast<std::size_t>(cells[k]);
     if (cells[k] < 0 || cell >= result.cell_outcomes_.size()) {
-      throw std::invalid_argument(fmt::format("statistics_cell: entry {} is damaged", k));
+      throw std::invalid_argument(tumble::format("statistics_cell: entry {} is damaged", k));
     }
     std::copy_n(cell_outcomes.begin() + static_cast<std::ptrdiff_t>(k * k_num_outcomes), k_num_outcomes,
                 result.cell_outcomes_[cell].begin());

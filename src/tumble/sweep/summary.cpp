@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble::sweep {
 namespace {
@@ -34,7 +34,7 @@ MeasureSummary summarise(const Measure& measure, const Moments& moments, const H
 
 // 1234567 as "1 234 567".
 std::string grouped(std::int64_t count) {
-  std::string text = fmt::format("{}", count);
+  std::string text = tumble::format("{}", count);
   for (std::ptrdiff_t k = static_cast<std::ptrdiff_t>(text.size()) - 3; k > 0; k -= 3) {
     text.insert(static_cast<std::size_t>(k), 1, ' ');
   }
@@ -48,66 +48,66 @@ int decimals_of(const Interval& share) {
 }
 
 std::string name_with_unit(const Measure& measure) {
-  return measure.unit.empty() ? measure.name : fmt::format("{} [{}]", measure.name, measure.unit);
+  return measure.unit.empty() ? measure.name : tumble::format("{} [{}]", measure.name, measure.unit);
 }
 
-std::string cell(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4g}", value); }
+std::string cell(double value) { return std::isnan(value) ? "-" : tumble::format("{:.4g}", value); }
 
 std::string heading(const Summary& summary) {
   std::string text = summary.facts.title.empty() ? "" : summary.facts.title + "\n";
   for (const std::string& line : summary.facts.swept) text += line + "\n";
-  text += fmt::format("{} instances, {} solved\n", grouped(summary.instances), grouped(summary.solved));
+  text += tumble::format("{} instances, {} solved\n", grouped(summary.instances), grouped(summary.solved));
   if (summary.numerical > 0) {
-    text += fmt::format("left out: {} numerical (a step left the range of double arithmetic)\n",
-                        grouped(summary.numerical));
+    text += tumble::format("left out: {} numerical (a step left the range of double arithmetic)\n",
+                           grouped(summary.numerical));
   }
   if (summary.invalid > 0) {
-    text += fmt::format("left out: {} invalid (a start or a parameter out of range)\n", grouped(summary.invalid));
+    text += tumble::format("left out: {} invalid (a start or a parameter out of range)\n", grouped(summary.invalid));
   }
   return text;
 }
 
 std::string table_of_shares(const Summary& summary) {
-  std::string text = fmt::format("\n{:<16}{:>16}{:>12}   {}\n", "ends", "instances", "share", "95 % interval");
+  std::string text = tumble::format("\n{:<16}{:>16}{:>12}   {}\n", "ends", "instances", "share", "95 % interval");
   for (const Share& share : summary.shares) {
-    text += fmt::format("{:<16}{:>16}", name_of(share.outcome), grouped(share.count));
+    text += tumble::format("{:<16}{:>16}", name_of(share.outcome), grouped(share.count));
     if (std::isnan(share.share)) {
-      text += fmt::format("{:>12}   -\n", "-");
+      text += tumble::format("{:>12}   -\n", "-");
       continue;
     }
     const int decimals = decimals_of(share.interval);
-    text += fmt::format("{:>10.{}f} %   {:.{}f} to {:.{}f} %\n", 100.0 * share.share, decimals,
-                        100.0 * share.interval.low, decimals, 100.0 * share.interval.high, decimals);
+    text += tumble::format("{:>10.{}f} %   {:.{}f} to {:.{}f} %\n", 100.0 * share.share, decimals,
+                           100.0 * share.interval.low, decimals, 100.0 * share.interval.high, decimals);
   }
-  text += fmt::format("still moving: faster than {:.6g} m/s at the end\n", summary.facts.rest_speed);
+  text += tumble::format("still moving: faster than {:.6g} m/s at the end\n", summary.facts.rest_speed);
   return text;
 }
 
 std::string table_of_measures(const Summary& summary) {
   std::string text =
-      fmt::format("\n{:<20}{:>16}{:>11}   {:<24}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}\n", "measure", "instances", "mean",
-                  "95 % interval", "deviation", "min", "5 %", "median", "95 %", "max");
+      tumble::format("\n{:<20}{:>16}{:>11}   {:<24}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}\n", "measure", "instances",
+                     "mean", "95 % interval", "deviation", "min", "5 %", "median", "95 %", "max");
   for (const MeasureSummary& m : summary.measures) {
     const std::string interval =
-        std::isnan(m.interval.low) ? "-" : fmt::format("{:.5g} to {:.5g}", m.interval.low, m.interval.high);
-    text += fmt::format("{:<20}{:>16}{:>11}   {:<24}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}\n", name_with_unit(m.measure),
-                        grouped(m.count), cell(m.mean), interval, cell(m.deviation), cell(m.min), cell(m.low),
-                        cell(m.median), cell(m.high), cell(m.max));
+        std::isnan(m.interval.low) ? "-" : tumble::format("{:.5g} to {:.5g}", m.interval.low, m.interval.high);
+    text += tumble::format("{:<20}{:>16}{:>11}   {:<24}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}\n",
+                           name_with_unit(m.measure), grouped(m.count), cell(m.mean), interval, cell(m.deviation),
+                           cell(m.min), cell(m.low), cell(m.median), cell(m.high), cell(m.max));
   }
   return text;
 }
 
 std::string number(double value, const char* otherwise) {
-  return std::isfinite(value) ? fmt::format("{}", value) : otherwise;
+  return std::isfinite(value) ? tumble::format("{}", value) : otherwise;
 }
 
 std::string quoted(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
-      result += fmt::format("\\{}", c);
+      result += tumble::format("\\{}", c);
     } else if (static_cast<unsigned char>(c) < 0x20) {
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+      result += tumble::format("\\u{:04x}", static_cast<unsigned>(c));
     } else {
       result += c;
     }
@@ -117,7 +117,7 @@ std::string quoted(std::string_view text) {
 }
 
 std::string json_of(const Interval& interval) {
-  return fmt::format("[{}, {}]", number(interval.low, "null"), number(interval.high, "null"));
+  return tumble::format("[{}, {}]", number(interval.low, "null"), number(interval.high, "null"));
 }
 
 }  // namespace
@@ -161,18 +161,18 @@ std::string to_text(const Summary& summary) {
 std::string to_csv(const Summary& summary) {
   std::string text = "name,unit,count,of,value,low,high,deviation,min,q05,q25,q50,q75,q95,max\n";
   for (const Share& share : summary.shares) {
-    text += fmt::format("{},,{},{},{},{},{},,,,,,,,\n", name_of(share.outcome), share.count, summary.solved,
-                        number(share.share, ""), number(share.interval.low, ""), number(share.interval.high, ""));
+    text += tumble::format("{},,{},{},{},{},{},,,,,,,,\n", name_of(share.outcome), share.count, summary.solved,
+                           number(share.share, ""), number(share.interval.low, ""), number(share.interval.high, ""));
   }
   for (const Outcome outcome : {Outcome::numerical, Outcome::invalid}) {
     const std::int64_t count = outcome == Outcome::numerical ? summary.numerical : summary.invalid;
-    text += fmt::format("{},,{},{},,,,,,,,,,,\n", name_of(outcome), count, summary.instances);
+    text += tumble::format("{},,{},{},,,,,,,,,,,\n", name_of(outcome), count, summary.instances);
   }
   for (const MeasureSummary& m : summary.measures) {
-    text += fmt::format("{},{},{},{}", m.measure.name, m.measure.unit, m.count, m.count + m.missing);
+    text += tumble::format("{},{},{},{}", m.measure.name, m.measure.unit, m.count, m.count + m.missing);
     for (const double value : {m.mean, m.interval.low, m.interval.high, m.deviation, m.min, m.low, m.first_quartile,
                                m.median, m.third_quartile, m.high, m.max}) {
-      text += fmt::format(",{}", number(value, ""));
+      text += tumble::format(",{}", number(value, ""));
     }
     text += "\n";
   }
@@ -180,22 +180,22 @@ std::string to_csv(const Summary& summary) {
 }
 
 std::string to_json(const Summary& summary) {
-  std::string text = fmt::format(
+  std::string text = tumble::format(
       "{{\n  \"title\": {},\n  \"instances\": {},\n  \"solved\": {},\n  \"numerical\": {},\n"
       "  \"invalid\": {},\n  \"rest_speed\": {},\n  \"drawn\": {},\n  \"outcomes\": [",
       quoted(summary.facts.title), summary.instances, summary.solved, summary.numerical, summary.invalid,
       number(summary.facts.rest_speed, "null"), summary.facts.is_drawn);
   const char* before = "\n";
   for (const Share& share : summary.shares) {
-    text +=
-        fmt::format("{}    {{\"name\": {}, \"count\": {}, \"share\": {}, \"interval\": {}}}", before,
-                    quoted(name_of(share.outcome)), share.count, number(share.share, "null"), json_of(share.interval));
+    text += tumble::format("{}    {{\"name\": {}, \"count\": {}, \"share\": {}, \"interval\": {}}}", before,
+                           quoted(name_of(share.outcome)), share.count, number(share.share, "null"),
+                           json_of(share.interval));
     before = ",\n";
   }
   text += "\n  ],\n  \"measures\": [";
   before = "\n";
   for (const MeasureSummary& m : summary.measures) {
-    text += fmt::format(
+    text += tumble::format(
         "{}    {{\"name\": {}, \"unit\": {}, \"count\": {}, \"missing\": {}, \"mean\": {}, "
         "\"interval\": {}, \"deviation\": {}",
         before, quoted(m.measure.name), quoted(m.measure.unit), m.count, m.missing, number(m.mean, "null"),
@@ -207,7 +207,7 @@ std::string to_json(const Summary& summary) {
                                                                  {"q75", m.third_quartile},
                                                                  {"q95", m.high},
                                                                  {"max", m.max}}};
-    for (const auto& [name, value] : rest) text += fmt::format(", \"{}\": {}", name, number(value, "null"));
+    for (const auto& [name, value] : rest) text += tumble::format(", \"{}\": {}", name, number(value, "null"));
     text += "}";
     before = ",\n";
   }

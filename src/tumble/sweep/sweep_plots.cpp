@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "tumble/math/format.hpp"
 #include "tumble/output/draw.hpp"
 #include "tumble/output/file.hpp"
 #include "tumble/output/write.hpp"
@@ -90,9 +89,9 @@ Picture overview(const PlotSource& source) {
 [[noreturn]] void refuse_kind(const PlotSource& source, const std::string& kind) {
   std::string names = "overview, faces, map";
   if (source.fan != nullptr) names += ", fan";
-  for (const Measure& measure : source.statistics.layout().measures) names += fmt::format(", {}", measure.name);
-  throw std::invalid_argument(fmt::format("plot: must be one of {}, or 'map' and the name of a measure, got '{}'",
-                                          names, output::path_text(kind)));
+  for (const Measure& measure : source.statistics.layout().measures) names += tumble::format(", {}", measure.name);
+  throw std::invalid_argument(tumble::format("plot: must be one of {}, or 'map' and the name of a measure, got '{}'",
+                                             names, output::path_text(kind)));
 }
 
 Picture picture_of(const PlotSource& source, const std::string& kind) {
@@ -119,8 +118,8 @@ struct Sizes {
 Sizes choose_sizes(const Picture& picture, int width, int height, double usual_scale) {
   for (const auto& [field, value] : {std::pair{"width", width}, std::pair{"height", height}}) {
     if (value == 0 || (value >= output::k_smallest_picture && value <= output::k_largest_picture)) continue;
-    throw std::invalid_argument(fmt::format("{}: must be 0 (chosen for you) or in [{}, {}] px, got {}", field,
-                                            output::k_smallest_picture, output::k_largest_picture, value));
+    throw std::invalid_argument(tumble::format("{}: must be 0 (chosen for you) or in [{}, {}] px, got {}", field,
+                                               output::k_smallest_picture, output::k_largest_picture, value));
   }
   const auto clamp = [](double size) {
     return std::clamp(static_cast<int>(std::lround(size)), output::k_smallest_picture, output::k_largest_picture);
@@ -138,10 +137,10 @@ double draw_title(Canvas& canvas, const Summary& summary, double width) {
   const Point at{k_edge + 16.0, 36.0};
   output::draw_text_within(canvas, room, at, summary.facts.title.empty() ? "A sweep of drops" : summary.facts.title,
                            {19.0, output::k_ink, Align::left, true});
-  std::string facts = fmt::format("{} instance{}", summary.instances, summary.instances == 1 ? "" : "s");
-  if (summary.numerical > 0) facts += fmt::format(", {} numerical left out", summary.numerical);
-  if (summary.invalid > 0) facts += fmt::format(", {} invalid left out", summary.invalid);
-  for (const std::string& swept : summary.facts.swept) facts += fmt::format(";  {}", swept);
+  std::string facts = tumble::format("{} instance{}", summary.instances, summary.instances == 1 ? "" : "s");
+  if (summary.numerical > 0) facts += tumble::format(", {} numerical left out", summary.numerical);
+  if (summary.invalid > 0) facts += tumble::format(", {} invalid left out", summary.invalid);
+  for (const std::string& swept : summary.facts.swept) facts += tumble::format(";  {}", swept);
   output::draw_text_within(canvas, room, {at.x, at.y + 23.0}, facts, {12.5, output::k_muted});
   return at.y + 40.0;
 }
@@ -187,7 +186,7 @@ void write_plot(const PlotSource& source, const std::filesystem::path& path, con
                 bool overwrite) {
   const std::string ending = output::ending_of(path);
   if (ending != ".png" && ending != ".svg") {
-    throw std::invalid_argument(fmt::format("{}: the name must end in .png or .svg", output::path_text(path)));
+    throw std::invalid_argument(tumble::format("{}: the name must end in .png or .svg", output::path_text(path)));
   }
   output::check_target(path, overwrite);
   const std::string bytes = ending == ".png" ? to_plot_png(source, settings) : to_plot_svg(source, settings);

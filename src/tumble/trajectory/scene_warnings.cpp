@@ -6,10 +6,9 @@
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "tumble/geometry/detect_contacts.hpp"
 #include "tumble/geometry/placed_shape.hpp"
+#include "tumble/math/format.hpp"
 #include "tumble/trajectory/simulate.hpp"
 
 namespace tumble {
@@ -194,16 +193,16 @@ std::string to_text(const SceneWarning& warning, const Scene& scene, const std::
   const auto label = [&](int body) { return labels[static_cast<std::size_t>(body)]; };
   switch (warning.kind) {
     case Kind::overlap:
-      return fmt::format("{} and {} overlap by {:.3g} m at the start; they will be pushed apart", label(warning.body),
-                         label(warning.other), warning.value);
-    case Kind::no_support: return fmt::format("nothing is below {}: it falls for ever", label(warning.body));
+      return tumble::format("{} and {} overlap by {:.3g} m at the start; they will be pushed apart",
+                            label(warning.body), label(warning.other), warning.value);
+    case Kind::no_support: return tumble::format("nothing is below {}: it falls for ever", label(warning.body));
     case Kind::fast:
-      return fmt::format("{} goes far in one step of {} s; step_size = {:.1g} would follow it better",
-                         label(warning.body), scene.step_size, warning.step_size);
+      return tumble::format("{} goes far in one step of {} s; step_size = {:.1g} would follow it better",
+                            label(warning.body), scene.step_size, warning.step_size);
     case Kind::long_run: break;
   }
-  return fmt::format("the duration of {} s takes {:.4g} steps of {} s; at most {:g} are made", scene.duration,
-                     warning.value, scene.step_size, k_max_steps);
+  return tumble::format("the duration of {} s takes {:.4g} steps of {} s; at most {:g} are made", scene.duration,
+                        warning.value, scene.step_size, k_max_steps);
 }
 
 }  // namespace tumble

@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
+#include "tumble/math/format.hpp"
 
 namespace tumble {
 namespace {
 
 void require_positive_or_default(double value, const char* field) {
   if (!(std::isfinite(value) && value >= 0.0)) {
-    throw std::invalid_argument(fmt::format("{}: must be > 0 s, or 0 for the scene's own, got {}", field, value));
+    throw std::invalid_argument(tumble::format("{}: must be > 0 s, or 0 for the scene's own, got {}", field, value));
   }
 }
 
@@ -48,7 +48,7 @@ void validate(const SimulateSettings& settings) {
   require_positive_or_default(settings.step_size, "step_size");
   require_positive_or_default(settings.duration, "duration");
   if (settings.sample_every < 1) {
-    throw std::invalid_argument(fmt::format("sample_every: must be >= 1, got {}", settings.sample_every));
+    throw std::invalid_argument(tumble::format("sample_every: must be >= 1, got {}", settings.sample_every));
   }
   validate(settings.step);
 }
@@ -60,7 +60,7 @@ RunSettings run_settings(const Scene& scene, const SimulateSettings& settings) {
   const double steps = duration / step_size;
   if (!(steps <= k_max_steps)) {
     throw std::invalid_argument(
-        fmt::format("duration: must be at most {:g} steps of {} s, got {} s", k_max_steps, step_size, duration));
+        tumble::format("duration: must be at most {:g} steps of {} s, got {} s", k_max_steps, step_size, duration));
   }
   // Up to the end asked for, or past it by less than a step; a last step of nothing but round-off is none.
   const auto num_steps = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(steps * (1.0 - 1e-12))));
