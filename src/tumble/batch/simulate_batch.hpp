@@ -14,6 +14,7 @@
 #include "tumble/batch/measure_settings.hpp"
 #include "tumble/drop/parameters.hpp"
 #include "tumble/math/instruction_set.hpp"
+#include "tumble/math/vector.hpp"
 
 namespace tumble::batch {
 
@@ -24,6 +25,8 @@ struct DropStarts {
   std::span<const Real> v0;
 
   std::size_t size() const { return q0.size() / 3; }
+  Vector3 pose(std::size_t i) const { return {q0[3 * i], q0[3 * i + 1], q0[3 * i + 2]}; }
+  Vector3 velocity(std::size_t i) const { return {v0[3 * i], v0[3 * i + 1], v0[3 * i + 2]}; }
 };
 
 // The parameters of N drops. Each array has N entries, or one that holds for all, or none: the document's value then.
