@@ -18,11 +18,11 @@ class CMakeBuild(build_ext):
         build.mkdir(parents=True, exist_ok=True)
         options = [f"-DPython_EXECUTABLE={sys.executable}", "-DTUMBLE_BUILD_PYTHON=ON", "-DTUMBLE_BUILD_CLI=OFF"]
         configure = ["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *options]
-        targets = ["tumble_python", "tumble_python_output"]
+        targets = ["tumble_python", "tumble_python_output", "tumble_python_sweep"]
         if subprocess.run([*configure, "-DTUMBLE_BUILD_OUTPUT=ON"]).returncode != 0:
-            print("tumble: built without cairo, giflib or zlib, so that Trajectory.save will not work", file=sys.stderr)
+            print("tumble: built without cairo, giflib or zlib, so that Trajectory.save and tumble.sweep will not work", file=sys.stderr)
             subprocess.run([*configure, "-DTUMBLE_BUILD_OUTPUT=OFF"], check=True)
-            targets.pop()
+            targets = targets[:1]
         subprocess.run(["cmake", "--build", build, "--target", *targets], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)
         for module in (build / "python/tumble").glob("*.so"):

@@ -93,11 +93,12 @@ def test_pip_install_in_a_virtual_environment(tmp_path: Path) -> None:
     clean["CMAKE_BUILD_TYPE"] = "Debug"  # without optimisation, which takes longer than everything else in this file
     run(python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", ROOT, env=clean)
     code = (
-        "import tumble, tumble.course, tumble.grade\n"
+        "import tumble, tumble.course, tumble.grade, tumble.sweep\n"
         "from tumble.drop import simulate\n"
         f"q, v = simulate(*{COURSE_START!r})\n"
         "ball = tumble.Scene(duration=0.01)\nball.add_body(tumble.disc(0.1), mass=1)\n"
         "tumble.simulate(ball).save('ball.csv')\n"
+        "assert len(tumble.sweep.run({'samples': 10, 'start': {'theta': {'uniform': [0, 1]}}})) == 10\n"
         "print(tumble.__file__)\nprint(*map(repr, map(float, q[:, -1])))\n"
     )
     where, numbers = run(python, "-c", code, env=clean, cwd=tmp_path).strip().splitlines()
