@@ -16,8 +16,8 @@ namespace tumble::batch {
 template <class Real>
 class BlockRunner {
  public:
-  // What it takes must have been validated, and outlives the runner. `common`: the parameters of all drops, or null if
-  // drops have their own.
+  // All of it is valid and outlives the runner, but for `common`, which is copied: the parameters of all drops, or null
+  // if drops have their own.
   BlockRunner(const DropStarts<Real>& starts, const DropParameters& parameters, const drop::Parameters* common,
               const BatchSettings& settings, const DropResults<Real>& results);
 
